@@ -32,27 +32,33 @@ impl Shape {
             .ceil()
             .clamp(4.0, 1e6) as usize;
         let grain = (needed.next_power_of_two() / 8).max(1);
-        let rule = |own: &Building| match own.rule {
+        let rule = |building: &Building| match building.rule {
             Rule::Elastic => 0,
             Rule::Bilinear => 1,
             Rule::PeakOriented | Rule::Pinched { .. } => 2,
         };
-        let face = |own: Face| (own.floor, own.share < 1.0);
+        let face = |face: Face| (face.floor, face.share < 1.0);
         let contacts = |gap: &crate::row::Gap| {
-            let own = gap.contacts.iter();
-            own.map(|own| [face(own.left), face(own.right)]).collect()
+            let contacts = gap.contacts.iter();
+            contacts
+                .map(|contact| [face(contact.left), face(contact.right)])
+                .collect()
         };
         Self {
             motion: row.motion,
             sub: needed.div_ceil(grain) * grain,
             rules: row.buildings.iter().map(rule).collect(),
             contacts: row.gaps.iter().map(contacts).collect(),
-            storeys: row.buildings.iter().map(|own| own.storeys.len()).collect(),
+            storeys: row
+                .buildings
+                .iter()
+                .map(|building| building.storeys.len())
+                .collect(),
         }
     }
 
     pub(crate) fn shares_lanes_with(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.motion, own.sub);
+        let key = |shape: &Self| (shape.motion, shape.sub);
         key(self) == key(other) && self.rules == other.rules && self.contacts == other.contacts
     }
 }
@@ -267,13 +273,13 @@ impl<T: Real, const W: usize> Floor<T, W> {
     }
 
     fn put(&mut self, l: usize, building: &Building, storey: usize) {
-        let own = &building.storeys[storey];
-        let k = own.stiffness;
-        let [c, y] = [own.first_corner, own.second_corner];
-        let [k2, k3] = [own.second_ratio * k, own.third_ratio * k];
+        let storey = &building.storeys[storey];
+        let k = storey.stiffness;
+        let [c, y] = [storey.first_corner, storey.second_corner];
+        let [k2, k3] = [storey.second_ratio * k, storey.third_ratio * k];
         let q1 = (k - k2) * c;
-        self.inverse_mass[l] = T::of(1.0 / own.mass);
-        self.mass_damping[l] = T::of(building.alpha * own.mass);
+        self.inverse_mass[l] = T::of(1.0 / storey.mass);
+        self.mass_damping[l] = T::of(building.alpha * storey.mass);
         self.stiffness_damping[l] = T::of(building.beta * k);
         self.k1[l] = T::of(k);
         if building.rule == Rule::Elastic {
@@ -338,9 +344,13 @@ impl<T: Real, const W: usize> Pack<T, W> {
     /// At rest under the first ground acceleration: rates are those of half a step before, so that a sudden push acts at once.
     fn rest(&mut self, h: T, ground: &[T; W]) {
         let half = T::of(0.5) * h;
-        for own in self.buildings.iter_mut().flat_map(|own| &mut own.1) {
-            own.a = each(|l| -ground[l]);
-            own.v = each(|l| half * ground[l]);
+        for floor in self
+            .buildings
+            .iter_mut()
+            .flat_map(|building| &mut building.1)
+        {
+            floor.a = each(|l| -ground[l]);
+            floor.v = each(|l| half * ground[l]);
         }
     }
 
@@ -351,15 +361,15 @@ impl<T: Real, const W: usize> Pack<T, W> {
         for (rule, floors) in &mut self.buildings {
             let (mut below, mut below_rate) = ([T::ZERO; W], [T::ZERO; W]);
             for i in 0..floors.len() {
-                let own = &mut floors[i];
-                let d: [T; W] = each(|l| own.u[l] - below[l]);
-                let rate: [T; W] = each(|l| own.v[l] + half * own.a[l]);
-                let spring = own.spring(*rule, &d);
+                let floor = &mut floors[i];
+                let d: [T; W] = each(|l| floor.u[l] - below[l]);
+                let rate: [T; W] = each(|l| floor.v[l] + half * floor.a[l]);
+                let spring = floor.spring(*rule, &d);
                 let shear: [T; W] =
-                    each(|l| spring[l] + own.stiffness_damping[l] * (rate[l] - below_rate[l]));
-                own.drift = each(|l| own.drift[l].most(d[l].size()));
-                own.sum = each(|l| -shear[l] - own.mass_damping[l] * rate[l]);
-                (below, below_rate) = (own.u, rate);
+                    each(|l| spring[l] + floor.stiffness_damping[l] * (rate[l] - below_rate[l]));
+                floor.drift = each(|l| floor.drift[l].most(d[l].size()));
+                floor.sum = each(|l| -shear[l] - floor.mass_damping[l] * rate[l]);
+                (below, below_rate) = (floor.u, rate);
                 if i > 0 {
                     let under = &mut floors[i - 1];
                     under.sum = each(|l| under.sum[l] + shear[l]);
@@ -369,17 +379,17 @@ impl<T: Real, const W: usize> Pack<T, W> {
         for (gap, touches) in self.touches.iter_mut().enumerate() {
             let (lefts, rights) = self.buildings.split_at_mut(gap + 1);
             let (left, right) = (&mut lefts[gap].1, &mut rights[0].1);
-            for own in touches {
-                own.step(left, right, h);
+            for touch in touches {
+                touch.step(left, right, h);
             }
         }
         for (_, floors) in &mut self.buildings {
-            for own in floors {
-                let total: [T; W] = each(|l| own.sum[l] * own.inverse_mass[l]);
-                own.acceleration = each(|l| own.acceleration[l].most(total[l].size()));
-                own.a = each(|l| total[l] - ground[l]);
-                own.v = each(|l| own.v[l] + h * own.a[l]);
-                own.u = each(|l| own.u[l] + h * own.v[l]);
+            for floor in floors {
+                let total: [T; W] = each(|l| floor.sum[l] * floor.inverse_mass[l]);
+                floor.acceleration = each(|l| floor.acceleration[l].most(total[l].size()));
+                floor.a = each(|l| total[l] - ground[l]);
+                floor.v = each(|l| floor.v[l] + h * floor.a[l]);
+                floor.u = each(|l| floor.u[l] + h * floor.v[l]);
             }
         }
     }
@@ -393,12 +403,12 @@ fn of_face<T: Real, const W: usize>(
     share: &[T; W],
     read: impl Fn(&Floor<T, W>, usize) -> T,
 ) -> [T; W] {
-    let own = &floors[floor];
+    let floor = &floors[floor];
     match below {
-        None => each(|l| share[l] * read(own, l)),
+        None => each(|l| share[l] * read(floor, l)),
         Some(below) => {
             let below = &floors[below];
-            each(|l| share[l] * read(own, l) + (T::ONE - share[l]) * read(below, l))
+            each(|l| share[l] * read(floor, l) + (T::ONE - share[l]) * read(below, l))
         }
     }
 }
@@ -406,9 +416,9 @@ fn of_face<T: Real, const W: usize>(
 impl<T: Real, const W: usize> Touch<T, W> {
     fn of(rows: &[&Row], gap: usize, contact: usize) -> Self {
         let first = rows[0].gaps[gap].contacts[contact];
-        let face = |own: Face| {
-            let below = own.floor.checked_sub(1).filter(|_| own.share < 1.0);
-            (own.floor, below)
+        let face = |face: Face| {
+            let below = face.floor.checked_sub(1).filter(|_| face.share < 1.0);
+            (face.floor, below)
         };
         let zero = [T::ZERO; W];
         let mut touch = Self {
@@ -429,9 +439,9 @@ impl<T: Real, const W: usize> Touch<T, W> {
             impacts: [0; W],
         };
         for (l, row) in rows.iter().enumerate() {
-            let own = row.gaps[gap].contacts[contact];
+            let contact = row.gaps[gap].contacts[contact];
             let mut inverse = 0.0;
-            for (at, (face, building)) in [(own.left, gap), (own.right, gap + 1)]
+            for (at, (face, building)) in [(contact.left, gap), (contact.right, gap + 1)]
                 .into_iter()
                 .enumerate()
             {
@@ -458,7 +468,7 @@ impl<T: Real, const W: usize> Touch<T, W> {
     #[inline(always)]
     fn step(&mut self, left: &mut [Floor<T, W>], right: &mut [Floor<T, W>], h: T) {
         let [a, b] = self.faces;
-        let read = |own: &Floor<T, W>, l: usize| own.u[l];
+        let read = |floor: &Floor<T, W>, l: usize| floor.u[l];
         let ua = of_face(left, a, &self.shares[0], read);
         let ub = of_face(right, b, &self.shares[1], read);
         let near: [T; W] = each(|l| ua[l] - ub[l]);
@@ -484,7 +494,7 @@ impl<T: Real, const W: usize> Touch<T, W> {
             let two = of_face(right, b, &self.shares[1], read);
             each(|l| one[l] - two[l])
         };
-        let (v, acceleration) = (of(|own, l| own.v[l]), of(|own, l| own.a[l]));
+        let (v, acceleration) = (of(|floor, l| floor.v[l]), of(|floor, l| floor.a[l]));
         let (half, least) = (T::of(0.5), T::of(1e-6));
         for l in 0..W {
             if depth[l] > T::ZERO {
@@ -583,28 +593,28 @@ pub(crate) fn simulate<T: Real, const W: usize>(
 
 impl<T: Real, const W: usize> Pack<T, W> {
     fn peaks(&self, l: usize, row: &Row) -> Peaks {
-        let building = |(at, own): (usize, &Building)| {
-            let floors = &self.buildings[at].1[..own.storeys.len()];
+        let building = |(at, given): (usize, &Building)| {
+            let floors = &self.buildings[at].1[..given.storeys.len()];
             let read = |value: fn(&Floor<T, W>, usize) -> T| -> Vec<f64> {
-                floors.iter().map(|own| value(own, l).wide()).collect()
+                floors.iter().map(|floor| value(floor, l).wide()).collect()
             };
-            let ends = read(|own, l| own.u[l]);
+            let ends = read(|floor, l| floor.u[l]);
             let below = [0.0].into_iter().chain(ends.iter().copied());
             BuildingPeaks {
-                drift: read(|own, l| own.drift[l]),
-                acceleration: read(|own, l| own.acceleration[l]),
+                drift: read(|floor, l| floor.drift[l]),
+                acceleration: read(|floor, l| floor.acceleration[l]),
                 residual: ends.iter().zip(below).map(|(u, below)| u - below).collect(),
             }
         };
-        let contact = |(own, given): (&Touch<T, W>, &crate::row::Contact)| ContactPeaks {
-            closing: own.closing[l].wide(),
-            force: own.peak[l].wide(),
-            impulse: own.impulse[l].wide(),
-            impacts: own.impacts[l],
+        let contact = |(touch, given): (&Touch<T, W>, &crate::row::Contact)| ContactPeaks {
+            closing: touch.closing[l].wide(),
+            force: touch.peak[l].wide(),
+            impulse: touch.impulse[l].wide(),
+            impacts: touch.impacts[l],
             column: given.strikes_column(),
         };
-        let gap = |(own, given): (&Vec<Touch<T, W>>, &crate::row::Gap)| {
-            own.iter().zip(&given.contacts).map(contact).collect()
+        let gap = |(touches, given): (&Vec<Touch<T, W>>, &crate::row::Gap)| {
+            touches.iter().zip(&given.contacts).map(contact).collect()
         };
         Peaks {
             buildings: row.buildings.iter().enumerate().map(building).collect(),

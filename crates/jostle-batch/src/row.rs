@@ -157,8 +157,8 @@ impl Building {
     /// Levels of floors above the ground \[m\].
     fn levels(&self) -> Vec<f64> {
         let mut level = 0.0;
-        let up = |own: &Storey| {
-            level += own.height;
+        let up = |storey: &Storey| {
+            level += storey.height;
             level
         };
         self.storeys.iter().map(up).collect()
@@ -167,11 +167,11 @@ impl Building {
     /// Where a level above the ground meets the building; slabs nearer than `slab` count as that slab.
     fn face_at(&self, level: f64, slab: f64) -> Option<Face> {
         let levels = self.levels();
-        let near = |own: &f64| (own - level).abs() <= slab;
+        let near = |floor_level: &f64| (floor_level - level).abs() <= slab;
         if let Some(floor) = levels.iter().position(near) {
             return Some(Face { floor, share: 1.0 });
         }
-        let floor = levels.iter().position(|own| *own > level)?;
+        let floor = levels.iter().position(|candidate| *candidate > level)?;
         let height = self.storeys[floor].height;
         let share = 1.0 - (levels[floor] - level) / height;
         (share > 0.0).then_some(Face { floor, share })
@@ -179,9 +179,13 @@ impl Building {
 
     /// Square of a frequency that no mode exceeds \[1/s²\].
     pub(crate) fn highest_squared(&self) -> f64 {
-        let above = |i: usize| self.storeys.get(i + 1).map_or(0.0, |own| own.stiffness);
+        let above = |i: usize| {
+            self.storeys
+                .get(i + 1)
+                .map_or(0.0, |storey| storey.stiffness)
+        };
         let rows = self.storeys.iter().enumerate();
-        rows.map(|(i, own)| 2.0 * (own.stiffness + above(i)) / own.mass)
+        rows.map(|(i, storey)| 2.0 * (storey.stiffness + above(i)) / storey.mass)
             .fold(0.0, f64::max)
     }
 }
@@ -201,20 +205,20 @@ impl Gap {
         let mut contacts = Vec::new();
         for (floor, level) in left.levels().iter().enumerate() {
             if let Some(other) = right.face_at(level - right_base, SLAB) {
-                let own = Face { floor, share: 1.0 };
+                let face = Face { floor, share: 1.0 };
                 contacts.push(Contact {
-                    left: own,
+                    left: face,
                     right: other,
                 });
             }
         }
         for (floor, level) in right.levels().iter().enumerate() {
             let met = left.face_at(level + right_base, SLAB);
-            if let Some(other) = met.filter(|own| own.share < 1.0) {
-                let own = Face { floor, share: 1.0 };
+            if let Some(other) = met.filter(|met| met.share < 1.0) {
+                let face = Face { floor, share: 1.0 };
                 contacts.push(Contact {
                     left: other,
-                    right: own,
+                    right: face,
                 });
             }
         }

@@ -121,8 +121,8 @@ pub(crate) fn run_in<T: Real, const W: usize>(
         let results: Vec<Vec<(usize, Peaks)>> = packs
             .par_iter()
             .map(|pack| {
-                let own: Vec<&Row> = pack.iter().map(|(_, at)| &taken[*at]).collect();
-                let peaks = simulate::<T, W>(&pack[0].0, &own, motions);
+                let taken: Vec<&Row> = pack.iter().map(|(_, at)| &taken[*at]).collect();
+                let peaks = simulate::<T, W>(&pack[0].0, &taken, motions);
                 pack.iter().map(|(_, at)| *at).zip(peaks).collect()
             })
             .collect();
@@ -232,17 +232,22 @@ fn check_building(
         within("force", force, 0.0, 1.0)?;
         within("unloading_exponent", unloading_exponent, 0.0, 1.0)?;
     }
-    for own in &building.storeys {
-        within("mass", own.mass, LEAST, MOST)?;
-        within("stiffness", own.stiffness, LEAST, MOST)?;
-        within("height", own.height, 1e-3, 1e3)?;
+    for storey in &building.storeys {
+        within("mass", storey.mass, LEAST, MOST)?;
+        within("stiffness", storey.stiffness, LEAST, MOST)?;
+        within("height", storey.height, 1e-3, 1e3)?;
         if building.rule != Rule::Elastic {
-            within("first_corner", own.first_corner, LEAST, 1e6)?;
-            within("second_ratio", own.second_ratio, 0.0, 1.0)?;
+            within("first_corner", storey.first_corner, LEAST, 1e6)?;
+            within("second_ratio", storey.second_ratio, 0.0, 1.0)?;
         }
         if !matches!(building.rule, Rule::Elastic | Rule::Bilinear) {
-            within("second_corner", own.second_corner, own.first_corner, 1e6)?;
-            within("third_ratio", own.third_ratio, 0.0, own.second_ratio)?;
+            within(
+                "second_corner",
+                storey.second_corner,
+                storey.first_corner,
+                1e6,
+            )?;
+            within("third_ratio", storey.third_ratio, 0.0, storey.second_ratio)?;
         }
     }
     Ok(())

@@ -46,7 +46,7 @@ fn peaks_of(motion: Motion, rows: Vec<Row>, options: &Options) -> Vec<Peaks> {
 
 fn numbers(value: &Value) -> Vec<f64> {
     let all = value.as_array().expect("an array").iter();
-    all.map(|own| own.as_f64().expect("a number")).collect()
+    all.map(|entry| entry.as_f64().expect("a number")).collect()
 }
 
 fn worst(found: &[f64], expected: &[f64]) -> f64 {
@@ -62,7 +62,7 @@ fn five_pairs_agree_with_an_integrator_that_locates_every_event() {
             let path =
                 Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/o{case}.json"));
             let text = std::fs::read_to_string(path).expect("the case");
-            let own: Value = serde_json::from_str(&text).expect("JSON");
+            let reference: Value = serde_json::from_str(&text).expect("JSON");
             let number = |value: &Value| value.as_f64().expect("a number");
             let building = |given: &Value| {
                 let [first, second] =
@@ -76,7 +76,7 @@ fn five_pairs_agree_with_an_integrator_that_locates_every_event() {
                     second_ratio: number(&given["k2_ratio"]),
                     third_ratio: number(&given["k3_ratio"]),
                 };
-                let rule = match own["rule"].as_str() {
+                let rule = match reference["rule"].as_str() {
                     Some("bilinear") => Rule::Bilinear,
                     _ => Rule::PeakOriented,
                 };
@@ -87,7 +87,7 @@ fn five_pairs_agree_with_an_integrator_that_locates_every_event() {
                     beta: 0.0,
                 }
             };
-            let buildings: Vec<_> = own["buildings"]
+            let buildings: Vec<_> = reference["buildings"]
                 .as_array()
                 .expect("two")
                 .iter()
@@ -96,7 +96,7 @@ fn five_pairs_agree_with_an_integrator_that_locates_every_event() {
             let gap = Gap::between(
                 &buildings[0],
                 &buildings[1],
-                number(&own["gap_m"]),
+                number(&reference["gap_m"]),
                 Some(LAW),
                 0.0,
             );
@@ -106,17 +106,20 @@ fn five_pairs_agree_with_an_integrator_that_locates_every_event() {
                 motion: 0,
                 scale: 1.0,
             };
-            let motion = scaled(number(&own["pga_m_s2"]), 6.0);
+            let motion = scaled(number(&reference["pga_m_s2"]), 6.0);
             let options = Options {
                 phase: 0.0125,
                 precision,
             };
             let found = &peaks_of(motion, vec![row], &options)[0];
             for side in 0..2 {
-                let drift = worst(&found.buildings[side].drift, &numbers(&own["drift"][side]));
+                let drift = worst(
+                    &found.buildings[side].drift,
+                    &numbers(&reference["drift"][side]),
+                );
                 let acceleration = worst(
                     &found.buildings[side].acceleration,
-                    &numbers(&own["acc"][side]),
+                    &numbers(&reference["acc"][side]),
                 );
                 assert!(drift < 1e-3, "case {case}: drift {drift:e}");
                 assert!(
@@ -124,14 +127,14 @@ fn five_pairs_agree_with_an_integrator_that_locates_every_event() {
                     "case {case}: acceleration {acceleration:e}"
                 );
             }
-            let force: Vec<f64> = found.gaps[0].iter().map(|own| own.force).collect();
-            let force = worst(&force, &numbers(&own["force"]));
+            let force: Vec<f64> = found.gaps[0].iter().map(|gap| gap.force).collect();
+            let force = worst(&force, &numbers(&reference["force"]));
             assert!(force < 1e-3, "case {case}: force {force:e}");
             let impacts: Vec<f64> = found.gaps[0]
                 .iter()
-                .map(|own| f64::from(own.impacts))
+                .map(|gap| f64::from(gap.impacts))
                 .collect();
-            assert_eq!(impacts, numbers(&own["impacts"]), "case {case}");
+            assert_eq!(impacts, numbers(&reference["impacts"]), "case {case}");
         }
     }
 }
@@ -183,15 +186,15 @@ fn row(number: usize, width: f64, law: Option<Law>) -> Row {
 
 #[test]
 fn neighbours_in_lanes_threads_and_order_change_no_bit() {
-    let rows: Vec<Row> = (0..60).map(|own| row(own, 0.005, Some(LAW))).collect();
+    let rows: Vec<Row> = (0..60).map(|index| row(index, 0.005, Some(LAW))).collect();
     for precision in [Precision::Single, Precision::Double] {
         let options = Options {
             phase: 0.1,
             precision,
         };
         let together = peaks_of(scaled(4.0, 5.0), rows.clone(), &options);
-        for (at, own) in rows.iter().enumerate() {
-            let alone = peaks_of(scaled(4.0, 5.0), vec![own.clone()], &options);
+        for (at, row) in rows.iter().enumerate() {
+            let alone = peaks_of(scaled(4.0, 5.0), vec![row.clone()], &options);
             assert_eq!(alone[0], together[at], "row {at}");
         }
         let pool = rayon_of(3);
@@ -219,8 +222,8 @@ fn closing_exceeds_the_gap_exactly_where_buildings_touch() {
             .gaps
             .iter()
             .flatten()
-            .any(|own| own.closing as f32 > width as f32);
-        let hit = with.gaps.iter().flatten().any(|own| own.impacts > 0);
+            .any(|gap| gap.closing as f32 > width as f32);
+        let hit = with.gaps.iter().flatten().any(|gap| gap.impacts > 0);
         assert_eq!(any, hit, "row {number}");
         if hit {
             touched += 1;
@@ -228,14 +231,14 @@ fn closing_exceeds_the_gap_exactly_where_buildings_touch() {
             apart += 1;
             // Never touched: not a bit differs from buildings alone.
             assert_eq!(with.buildings, free.buildings);
-            for (at, own) in row(number, width, None).buildings.into_iter().enumerate() {
-                let own = Row {
-                    buildings: vec![own],
+            for (at, building) in row(number, width, None).buildings.into_iter().enumerate() {
+                let row = Row {
+                    buildings: vec![building],
                     gaps: vec![],
                     motion: 0,
                     scale: 1.0,
                 };
-                let alone = &peaks_of(motion(), vec![own], &options)[0];
+                let alone = &peaks_of(motion(), vec![row], &options)[0];
                 let difference = worst(&alone.buildings[0].drift, &with.buildings[at].drift);
                 assert!(difference < 1e-3, "row {number}: {difference:e}");
             }
@@ -351,9 +354,9 @@ fn a_slab_on_a_column_pushes_both_floors_by_the_lever_rule() {
 
 #[test]
 fn a_number_out_of_range_is_named() {
-    let mut own = row(3, 0.01, Some(LAW));
-    own.buildings[1].storeys[0].mass = f64::NAN;
-    let fault = run(&[scaled(1.0, 1.0)], [own], &Options::default(), |_, _| {
+    let mut row = row(3, 0.01, Some(LAW));
+    row.buildings[1].storeys[0].mass = f64::NAN;
+    let fault = run(&[scaled(1.0, 1.0)], [row], &Options::default(), |_, _| {
         ControlFlow::Continue(())
     });
     let fault = fault.expect_err("a fault").to_string();

@@ -99,13 +99,13 @@ impl Answers {
     pub fn means(&self) -> Means {
         let with: Vec<&BuildingAnswer> = self.buildings.iter().flatten().collect();
         let mean = |of: &dyn Fn(&BuildingAnswer) -> f64| {
-            with.iter().map(|own| of(own)).sum::<f64>() / with.len().max(1) as f64
+            with.iter().map(|building| of(building)).sum::<f64>() / with.len().max(1) as f64
         };
         Means {
             buildings: with.len(),
-            struck: [OWN - 2, OWN, OWN + 2].map(|at| mean(&|own| own.struck[at])),
-            column: mean(&|own| own.column),
-            moderate: [0, 1].map(|which| mean(&|own| own.states[which][2..].iter().sum())),
+            struck: [OWN - 2, OWN, OWN + 2].map(|at| mean(&|answer| answer.struck[at])),
+            column: mean(&|answer| answer.column),
+            moderate: [0, 1].map(|which| mean(&|answer| answer.states[which][2..].iter().sum())),
         }
     }
 }
@@ -126,7 +126,7 @@ impl City {
     ///
     /// When parts are missing or of another run.
     pub fn answers(&self, folder: &Path) -> Result<Answers, CityError> {
-        let mut own = Answers {
+        let mut answers = Answers {
             buildings: vec![None; self.inventory.buildings.len()],
             pairs: vec![PairAnswer::default(); self.neighbours.pairs.len()],
             ..Answers::default()
@@ -141,54 +141,55 @@ impl City {
             }
             let (cases, table) = read_cases(&path)?;
             self.same_run(&path, &table)?;
-            own.sampled
+            answers
+                .sampled
                 .add_json(table.facts.get("sample").map_or("", String::as_str));
             let other: Option<Vec<f32>> = table
                 .facts
                 .get("cut")
-                .and_then(|own| serde_json::from_str(own).ok());
+                .and_then(|fact| serde_json::from_str(fact).ok());
             cut.extend(other.into_iter().flatten());
             cases_seen += cases.len();
-            in_rows += cases.iter().filter(|own| own.row > 2).count();
+            in_rows += cases.iter().filter(|case| case.row > 2).count();
             for case in &cases {
                 if case.impacts > 0 {
                     let both = [0, 1].map(|side| (case.drift[1][side], case.drift[0][side]));
                     ratios.extend(
                         both.into_iter()
-                            .filter(|own| own.1 > 0.0)
-                            .map(|own| (own.0 / own.1) as f32),
+                            .filter(|candidate| candidate.1 > 0.0)
+                            .map(|drifts| (drifts.0 / drifts.1) as f32),
                     );
                 }
             }
             for of_pair in cases.chunk_by(|a, b| a.pair == b.pair) {
-                own.pairs[of_pair[0].pair] = self.pair_answer(of_pair);
+                answers.pairs[of_pair[0].pair] = self.pair_answer(of_pair);
             }
             let (found, [bad, good, all]) = self.building_answers(&cases);
             for (building, answer) in found {
-                own.buildings[building] = Some(answer);
+                answers.buildings[building] = Some(answer);
             }
             worse += bad;
             better += good;
             samples += all;
         }
         let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
-        own.changed = [share(worse, samples), share(better, samples)];
-        own.in_rows = share(in_rows, cases_seen);
+        answers.changed = [share(worse, samples), share(better, samples)];
+        answers.in_rows = share(in_rows, cases_seen);
         cut.sort_by(f32::total_cmp);
-        own.cut = (
+        answers.cut = (
             cut.len(),
             [0.5, 0.95].map(|of| f64::from(quantile(&cut, of))),
         );
         ratios.sort_by(f32::total_cmp);
-        own.drift_ratios = [0.05, 0.5, 0.95, 0.99].map(|of| f64::from(quantile(&ratios, of)));
-        Ok(own)
+        answers.drift_ratios = [0.05, 0.5, 0.95, 0.99].map(|of| f64::from(quantile(&ratios, of)));
+        Ok(answers)
     }
 
     fn gaps_at(&self, factor: f64) -> GapWidths {
-        let own = self.gaps();
+        let gaps = self.gaps();
         GapWidths {
-            median: factor * own.median,
-            ..own
+            median: factor * gaps.median,
+            ..gaps
         }
     }
 
@@ -196,45 +197,46 @@ impl City {
         let pair = &self.neighbours.pairs[cases[0].pair];
         let count = cases.len() as f64;
         let gaps = self.gaps();
-        let share =
-            |of: &dyn Fn(&Case) -> bool| cases.iter().filter(|own| of(own)).count() as f64 / count;
-        let mut closings: Vec<f32> = cases.iter().map(|own| own.closing as f32).collect();
+        let share = |of: &dyn Fn(&Case) -> bool| {
+            cases.iter().filter(|case| of(case)).count() as f64 / count
+        };
+        let mut closings: Vec<f32> = cases.iter().map(|case| case.closing as f32).collect();
         closings.sort_by(f32::total_cmp);
         let mut forces: Vec<f32> = cases
             .iter()
-            .filter(|own| own.impacts > 0)
-            .map(|own| own.force as f32)
+            .filter(|case| case.impacts > 0)
+            .map(|case| case.force as f32)
             .collect();
         forces.sort_by(f32::total_cmp);
-        let two = |own: &[f32]| [0.5, 0.9].map(|of| f64::from(quantile(own, of)));
+        let two = |values: &[f32]| [0.5, 0.9].map(|of| f64::from(quantile(values, of)));
         PairAnswer {
             struck: cases
                 .iter()
-                .map(|own| gaps.probability_below(own.closing, pair.distance))
+                .map(|case| gaps.probability_below(case.closing, pair.distance))
                 .sum::<f64>()
                 / count,
-            column: share(&|own| own.column_impacts > 0),
+            column: share(&|case| case.column_impacts > 0),
             closing: two(&closings),
             force: two(&forces),
-            worse: share(&|own| {
+            worse: share(&|case| {
                 [0, 1]
                     .iter()
-                    .any(|side| own.state[1][*side] > own.state[0][*side])
+                    .any(|side| case.state[1][*side] > case.state[0][*side])
             }),
-            better: share(&|own| {
+            better: share(&|case| {
                 [0, 1]
                     .iter()
-                    .any(|side| own.state[1][*side] < own.state[0][*side])
+                    .any(|side| case.state[1][*side] < case.state[0][*side])
             }),
             telling: cases
                 .iter()
-                .filter(|own| own.impacts > 0)
+                .filter(|case| case.impacts > 0)
                 .max_by(|a, b| {
                     worsened(a)
                         .cmp(&worsened(b))
                         .then(a.force.total_cmp(&b.force))
                 })
-                .map(|own| [own.draw, own.motion]),
+                .map(|case| [case.draw, case.motion]),
         }
     }
 
@@ -254,11 +256,13 @@ impl City {
         let medians = MEDIANS.map(|factor| self.gaps_at(factor));
         let mut changed = [0; 3];
         let mut found = Vec::with_capacity(of_building.len());
-        for (building, mut own) in of_building {
-            own.sort_by_key(|(case, _)| (case.draw, case.motion));
+        for (building, mut building_cases) in of_building {
+            building_cases.sort_by_key(|(case, _)| (case.draw, case.motion));
             let mut tally = Tally::default();
             let mut samples = 0;
-            for sample in own.chunk_by(|a, b| (a.0.draw, a.0.motion) == (b.0.draw, b.0.motion)) {
+            for sample in
+                building_cases.chunk_by(|a, b| (a.0.draw, a.0.motion) == (b.0.draw, b.0.motion))
+            {
                 samples += 1;
                 let greatest = |of: &dyn Fn(&(&Case, usize)) -> usize| {
                     sample.iter().map(of).max().unwrap_or(0)
@@ -288,17 +292,17 @@ impl City {
             }
             changed[2] += samples;
             let count = samples as f64;
-            let median = |own: &mut Vec<f32>| {
-                own.sort_by(f32::total_cmp);
-                f64::from(quantile(own, 0.5))
+            let median = |drifts: &mut Vec<f32>| {
+                drifts.sort_by(f32::total_cmp);
+                f64::from(quantile(drifts, 0.5))
             };
             let answer = BuildingAnswer {
                 samples,
-                struck: tally.struck.map(|own| own / count),
+                struck: tally.struck.map(|struck| struck / count),
                 column: f64::from(tally.column) / count,
                 states: tally
                     .states
-                    .map(|own| own.map(|own| f64::from(own) / count)),
+                    .map(|state| state.map(|number| f64::from(number) / count)),
                 drift: [median(&mut tally.drift[0]), median(&mut tally.drift[1])],
             };
             found.push((building, answer));

@@ -37,14 +37,14 @@ pub struct Line {
 #[must_use]
 pub fn blocks(pairs: &[Pair], buildings: usize) -> Vec<Block> {
     let mut above: Vec<usize> = (0..buildings).collect();
-    for own in pairs {
-        let [a, b] = own.buildings.map(|at| root(&mut above, at));
+    for pair in pairs {
+        let [a, b] = pair.buildings.map(|at| root(&mut above, at));
         above[a.max(b)] = a.min(b);
     }
     let mut number = vec![usize::MAX; buildings];
     let mut found: Vec<Block> = Vec::new();
-    for (at, own) in pairs.iter().enumerate() {
-        let first = root(&mut above, own.buildings[0]);
+    for (at, pair) in pairs.iter().enumerate() {
+        let first = root(&mut above, pair.buildings[0]);
         if number[first] == usize::MAX {
             number[first] = found.len();
             found.push(Block {
@@ -54,13 +54,13 @@ pub fn blocks(pairs: &[Pair], buildings: usize) -> Vec<Block> {
         }
         let block = &mut found[number[first]];
         block.pairs.push(at);
-        block.buildings.extend(own.buildings);
+        block.buildings.extend(pair.buildings);
     }
     for block in &mut found {
         block.buildings.sort_unstable();
         block.buildings.dedup();
     }
-    found.sort_by_key(|own| own.buildings[0]);
+    found.sort_by_key(|block| block.buildings[0]);
     found
 }
 
@@ -89,23 +89,23 @@ pub fn rows(block: &Block, pairs: &[Pair], rank: impl Fn(usize) -> f64) -> Vec<L
     let mut sides: Vec<Vec<(f64, usize)>> = vec![Vec::new(); count];
     let mut alone = Vec::new();
     for pair in order {
-        let own = &pairs[pair];
-        let [a, b] = own.buildings.map(at);
-        let directions = [own.normal, own.normal + PI];
+        let neighbours = &pairs[pair];
+        let [a, b] = neighbours.buildings.map(at);
+        let directions = [neighbours.normal, neighbours.normal + PI];
         let fits = |side: &[(f64, usize)], direction: f64| match side {
             [] => true,
             [(other, _)] => opposite(*other, direction),
             _ => false,
         };
         let [top_a, top_b] = [a, b].map(|at| root(&mut above, at));
-        let joined = own.position != Position::Corner
+        let joined = neighbours.position != Position::Corner
             && fits(&sides[a], directions[0])
             && fits(&sides[b], directions[1])
             && top_a != top_b
             && size[top_a] + size[top_b] <= LONGEST;
         if !joined {
             alone.push(Line {
-                buildings: own.buildings.to_vec(),
+                buildings: neighbours.buildings.to_vec(),
                 pairs: vec![pair],
             });
             continue;
@@ -129,7 +129,10 @@ pub fn rows(block: &Block, pairs: &[Pair], rank: impl Fn(usize) -> f64) -> Vec<L
         };
         let mut here = start;
         seen[here] = true;
-        while let Some((_, pair)) = sides[here].iter().find(|own| !line.pairs.contains(&own.1)) {
+        while let Some((_, pair)) = sides[here]
+            .iter()
+            .find(|side| !line.pairs.contains(&side.1))
+        {
             line.pairs.push(*pair);
             let [a, b] = pairs[*pair].buildings.map(at);
             here = if a == here { b } else { a };

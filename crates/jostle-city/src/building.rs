@@ -32,7 +32,7 @@ impl Building {
     pub fn likely_storeys(&self) -> usize {
         let of_height = || {
             self.height
-                .map(|own| ((own / STOREY).round() as usize).max(1))
+                .map(|height| ((height / STOREY).round() as usize).max(1))
         };
         self.storeys.or_else(of_height).unwrap_or(1)
     }

@@ -36,31 +36,33 @@ pub(crate) struct Case {
 type Column = (&'static str, fn(&Case) -> f64);
 
 const WHOLE: [Column; 10] = [
-    ("pair", |own| own.pair as f64),
-    ("draw", |own| own.draw as f64),
-    ("motion", |own| own.motion as f64),
-    ("row_buildings", |own| own.row as f64),
-    ("impacts", |own| own.impacts as f64),
-    ("column_impacts", |own| own.column_impacts as f64),
-    ("left_state_alone", |own| own.state[0][0] as f64),
-    ("right_state_alone", |own| own.state[0][1] as f64),
-    ("left_state", |own| own.state[1][0] as f64),
-    ("right_state", |own| own.state[1][1] as f64),
+    ("pair", |case| case.pair as f64),
+    ("draw", |case| case.draw as f64),
+    ("motion", |case| case.motion as f64),
+    ("row_buildings", |case| case.row as f64),
+    ("impacts", |case| case.impacts as f64),
+    ("column_impacts", |case| case.column_impacts as f64),
+    ("left_state_alone", |case| case.state[0][0] as f64),
+    ("right_state_alone", |case| case.state[0][1] as f64),
+    ("left_state", |case| case.state[1][0] as f64),
+    ("right_state", |case| case.state[1][1] as f64),
 ];
 const REAL: [Column; 11] = [
-    ("closing_m", |own| own.closing),
-    ("force_n", |own| own.force),
-    ("impulse_ns", |own| own.impulse),
-    ("left_drift_ratio_alone", |own| own.drift[0][0]),
-    ("right_drift_ratio_alone", |own| own.drift[0][1]),
-    ("left_drift_ratio", |own| own.drift[1][0]),
-    ("right_drift_ratio", |own| own.drift[1][1]),
-    ("left_acceleration_alone_m_s2", |own| own.acceleration[0][0]),
-    ("right_acceleration_alone_m_s2", |own| {
-        own.acceleration[0][1]
+    ("closing_m", |case| case.closing),
+    ("force_n", |case| case.force),
+    ("impulse_ns", |case| case.impulse),
+    ("left_drift_ratio_alone", |case| case.drift[0][0]),
+    ("right_drift_ratio_alone", |case| case.drift[0][1]),
+    ("left_drift_ratio", |case| case.drift[1][0]),
+    ("right_drift_ratio", |case| case.drift[1][1]),
+    ("left_acceleration_alone_m_s2", |case| {
+        case.acceleration[0][0]
     }),
-    ("left_acceleration_m_s2", |own| own.acceleration[1][0]),
-    ("right_acceleration_m_s2", |own| own.acceleration[1][1]),
+    ("right_acceleration_alone_m_s2", |case| {
+        case.acceleration[0][1]
+    }),
+    ("left_acceleration_m_s2", |case| case.acceleration[1][0]),
+    ("right_acceleration_m_s2", |case| case.acceleration[1][1]),
 ];
 
 /// The table of a part.
@@ -68,17 +70,17 @@ pub(crate) fn case_columns(cases: &[Case]) -> Vec<(String, Values)> {
     let mut columns: Vec<(String, Values)> = WHOLE
         .iter()
         .map(|(name, of)| {
-            let values = cases.iter().map(|own| Some(of(own) as i32));
+            let values = cases.iter().map(|case| Some(of(case) as i32));
             ((*name).to_owned(), Values::Whole(values.collect()))
         })
         .collect();
     columns.push((
         "gap_m".to_owned(),
-        Values::Instant(cases.iter().map(|own| own.gap).collect()),
+        Values::Instant(cases.iter().map(|case| case.gap).collect()),
     ));
     columns.extend(REAL.iter().map(|(name, of)| {
         // Batches step with seven digits; the rest would only fill the disk.
-        let values = cases.iter().map(|own| f64::from(of(own) as f32));
+        let values = cases.iter().map(|case| f64::from(of(case) as f32));
         ((*name).to_owned(), Values::Real(values.collect()))
     }));
     columns
@@ -89,9 +91,12 @@ pub(crate) fn read_cases(path: &Path) -> Result<(Vec<Case>, Table), CityError> {
     let table = Table::read(path)?;
     let number = |name: &str| table.numbers(path, name);
     let whole = |name: &str| -> Result<Vec<usize>, CityError> {
-        Ok(number(name)?.iter().map(|own| *own as usize).collect())
+        Ok(number(name)?
+            .iter()
+            .map(|number| *number as usize)
+            .collect())
     };
-    let of = |own: &[f64], at: usize| own[at];
+    let of = |column: &[f64], at: usize| column[at];
     let [pair, draw, motion, row] = [
         whole("pair")?,
         whole("draw")?,
@@ -132,14 +137,15 @@ pub(crate) fn read_cases(path: &Path) -> Result<(Vec<Case>, Table), CityError> {
             draw: draw[at],
             motion: motion[at],
             row: row[at],
-            gap: Some(gap[at]).filter(|own| own.is_finite()),
+            gap: Some(gap[at]).filter(|gap| gap.is_finite()),
             closing: closing[at],
             force: force[at],
             impulse: impulse[at],
             impacts: impacts[at],
             column_impacts: column_impacts[at],
-            drift: drifts.map(|own| own.map(|own| of(own, at))),
-            acceleration: accelerations.map(|own| own.map(|own| of(own, at))),
+            drift: drifts.map(|drift| drift.map(|column| of(column, at))),
+            acceleration: accelerations
+                .map(|acceleration| acceleration.map(|column| of(column, at))),
             state: [0, 1].map(|which| [0, 1].map(|side| states[which][side][at])),
         })
         .collect();

@@ -35,19 +35,19 @@ impl Table {
         let fault = |error: &dyn std::fmt::Display| CityError::of(path, error);
         let file = jostle_io::open_file(path).map_err(|error| fault(&error))?;
         let reader = SerializedFileReader::new(file).map_err(|error| fault(&error))?;
-        let mut own = Self::default();
+        let mut table = Self::default();
         let notes = reader
             .metadata()
             .file_metadata()
             .key_value_metadata()
             .cloned();
         for note in notes.into_iter().flatten() {
-            own.facts.insert(note.key, note.value.unwrap_or_default());
+            table.facts.insert(note.key, note.value.unwrap_or_default());
         }
         for group in 0..reader.num_row_groups() {
             let group = reader.get_row_group(group).map_err(|error| fault(&error))?;
             let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-            own.rows += rows;
+            table.rows += rows;
             for at in 0..group.num_columns() {
                 let column = group.metadata().column(at).column_descr_ptr();
                 let name = column.name().to_owned();
@@ -75,23 +75,26 @@ impl Table {
                     ColumnReader::DoubleColumnReader(reader) => {
                         let values = read!(reader);
                         let values = spread(values.into_iter(), &levels, optional);
-                        own.numbers.entry(name).or_default().extend(values);
+                        table.numbers.entry(name).or_default().extend(values);
                     }
                     ColumnReader::Int32ColumnReader(reader) => {
                         let values = read!(reader).into_iter().map(f64::from);
                         let values = spread(values, &levels, optional);
-                        own.numbers.entry(name).or_default().extend(values);
+                        table.numbers.entry(name).or_default().extend(values);
                     }
                     _ => {}
                 }
             }
         }
-        Ok(own)
+        Ok(table)
     }
 
     /// A column of numbers.
     pub(crate) fn numbers(&self, path: &Path, name: &str) -> Result<&[f64], CityError> {
-        let found = self.numbers.get(name).filter(|own| own.len() == self.rows);
+        let found = self
+            .numbers
+            .get(name)
+            .filter(|number| number.len() == self.rows);
         found
             .map(Vec::as_slice)
             .ok_or_else(|| CityError::of(path, format!("has no column \"{name}\"")))

@@ -34,7 +34,7 @@ impl GapWidths {
         Some(
             tries
                 .into_iter()
-                .find(|own| *own <= widest)
+                .find(|candidate| *candidate <= widest)
                 .unwrap_or(widest),
         )
     }
@@ -88,11 +88,16 @@ mod tests {
             party_wall: 0.1,
         };
         let drawn: Vec<Option<f64>> = (0..40_000).map(|pair| gaps.draw(pair, 0.1, 3)).collect();
-        let walls = drawn.iter().filter(|own| own.is_none()).count() as f64 / 4e4;
+        let walls = drawn.iter().filter(|drawn| drawn.is_none()).count() as f64 / 4e4;
         assert!((walls - 0.1).abs() < 0.005, "{walls}");
         assert!(drawn.iter().flatten().all(|own| *own <= 0.6));
         for closing in [0.05, 0.2, 0.4, 0.6] {
-            let below = drawn.iter().flatten().filter(|own| **own < closing).count() as f64 / 4e4;
+            let below = drawn
+                .iter()
+                .flatten()
+                .filter(|drawn| **drawn < closing)
+                .count() as f64
+                / 4e4;
             let expected = gaps.probability_below(closing, 0.1);
             assert!(
                 (below - expected).abs() < 0.008,

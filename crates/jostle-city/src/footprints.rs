@@ -42,7 +42,7 @@ impl Footprints {
     /// Buildings that have a neighbour.
     #[must_use]
     pub fn with_neighbours(&self) -> usize {
-        self.blocks.iter().map(|own| own.buildings.len()).sum()
+        self.blocks.iter().map(|block| block.buildings.len()).sum()
     }
 
     /// Writes `buildings.parquet`, `pairs.parquet`, `blocks.parquet` and `mended.csv`.

@@ -142,7 +142,7 @@ impl<'a> Gathered<'a> {
                 let text = text.trim();
                 text.parse::<f64>()
                     .ok()
-                    .filter(|own| own.is_finite())
+                    .filter(|number| number.is_finite())
                     .ok_or_else(|| {
                         CityError::of(
                             self.path,
@@ -162,11 +162,16 @@ impl<'a> Gathered<'a> {
                         building.storeys = Some(value.round() as usize);
                     }
                 }
-                Attribute::Height => building.height = Some(number()?).filter(|own| *own > 0.0),
+                Attribute::Height => {
+                    building.height = Some(number()?).filter(|number| *number > 0.0)
+                }
                 Attribute::Year => {
                     // A date such as 1931-05 is a year too.
-                    let year = text.trim().get(..4).and_then(|own| own.parse::<i32>().ok());
-                    building.year = year.filter(|own| *own > 0);
+                    let year = text
+                        .trim()
+                        .get(..4)
+                        .and_then(|digits| digits.parse::<i32>().ok());
+                    building.year = year.filter(|year| *year > 0);
                 }
             }
         }
@@ -179,15 +184,15 @@ impl<'a> Gathered<'a> {
             });
         };
         let geometry = match record.geometry {
-            Ok(own) => own,
+            Ok(geometry) => geometry,
             Err(problem) => {
                 noted("no outline", problem);
                 return Ok(());
             }
         };
         let mut parts: Vec<Polygon> = match geometry {
-            Geometry::Polygon(own) => vec![own],
-            Geometry::MultiPolygon(own) => own.0,
+            Geometry::Polygon(polygon) => vec![polygon],
+            Geometry::MultiPolygon(polygon) => polygon.0,
             Geometry::Point(_) | Geometry::MultiPoint(_) => {
                 self.points += 1;
                 noted("no outline", "a point".into());
@@ -199,11 +204,11 @@ impl<'a> Gathered<'a> {
             }
         };
         let plane = match self.plane {
-            Some(own) => own,
+            Some(plane) => plane,
             None => {
                 let first = parts
                     .first()
-                    .and_then(|own| own.exterior().0.first().copied());
+                    .and_then(|part| part.exterior().0.first().copied());
                 let Some(first) = first else {
                     noted("no outline", "an empty polygon".into());
                     return Ok(());
@@ -214,16 +219,16 @@ impl<'a> Gathered<'a> {
                 *self.plane.insert(plane)
             }
         };
-        let finite = |own: &Coord| own.x.is_finite() && own.y.is_finite();
+        let finite = |coord: &Coord| coord.x.is_finite() && coord.y.is_finite();
         let all = |wanted: &dyn Fn(&Coord) -> bool| {
-            parts.iter().flat_map(|own| &own.exterior().0).all(wanted)
+            parts.iter().flat_map(|part| &part.exterior().0).all(wanted)
         };
         if !all(&finite) {
             noted("no outline", "coordinates that are no numbers".into());
             return Ok(());
         }
         if let Plane::Degrees { .. } = plane
-            && !all(&|own| own.x.abs() <= 180.0 && own.y.abs() <= 90.0)
+            && !all(&|point| point.x.abs() <= 180.0 && point.y.abs() <= 90.0)
         {
             return Err(CityError::of(
                 self.path,
@@ -234,7 +239,7 @@ impl<'a> Gathered<'a> {
             ));
         }
         for part in &mut parts {
-            *part = part.map_coords(|own| plane.metres(own));
+            *part = part.map_coords(|point| plane.metres(point));
         }
         let (outline, mended) = whole(parts);
         let Some(outline) = outline else {
@@ -279,12 +284,13 @@ impl<'a> Gathered<'a> {
             );
         }
         self.mends.extend(repeats(&mut self.buildings));
-        self.mends.sort_by_key(|own| own.row);
-        let unknown = |own: &&Building| own.storeys.is_none() && own.height.is_none();
-        for own in self.buildings.iter().filter(unknown) {
+        self.mends.sort_by_key(|mend| mend.row);
+        let unknown =
+            |building: &&Building| building.storeys.is_none() && building.height.is_none();
+        for building in self.buildings.iter().filter(unknown) {
             self.mends.push(Mend {
-                id: own.id.clone(),
-                row: own.row,
+                id: building.id.clone(),
+                row: building.row,
                 what: "assumed",
                 detail: "1 storey: neither storeys nor height are given".into(),
             });
@@ -303,18 +309,18 @@ impl<'a> Gathered<'a> {
 pub(crate) fn extent(buildings: &[Building]) -> Option<geo::Rect> {
     let mut boxes = buildings
         .iter()
-        .filter_map(|own| own.outline.bounding_rect());
+        .filter_map(|building| building.outline.bounding_rect());
     let first = boxes.next()?;
-    Some(boxes.fold(first, |all, own| {
+    Some(boxes.fold(first, |all, value| {
         let [low, high] = [all.min(), all.max()];
         geo::Rect::new(
             Coord {
-                x: low.x.min(own.min().x),
-                y: low.y.min(own.min().y),
+                x: low.x.min(value.min().x),
+                y: low.y.min(value.min().y),
             },
             Coord {
-                x: high.x.max(own.max().x),
-                y: high.y.max(own.max().y),
+                x: high.x.max(value.max().x),
+                y: high.y.max(value.max().y),
             },
         )
     }))

@@ -73,21 +73,22 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
 pub(crate) fn repeats(buildings: &mut Vec<Building>) -> Vec<Mend> {
     let mut seen: HashMap<[i64; 3], String> = HashMap::new();
     let mut mends = Vec::new();
-    buildings.retain(|own| {
-        let Some(middle) = own.outline.centroid() else {
+    buildings.retain(|building| {
+        let Some(middle) = building.outline.centroid() else {
             return true;
         };
-        let key = [middle.x(), middle.y(), own.area].map(|value| (value * 100.0).round() as i64);
+        let key =
+            [middle.x(), middle.y(), building.area].map(|value| (value * 100.0).round() as i64);
         if let Some(first) = seen.get(&key) {
             mends.push(Mend {
-                id: own.id.clone(),
-                row: own.row,
+                id: building.id.clone(),
+                row: building.row,
                 what: "repeat",
                 detail: format!("the same outline as {first}"),
             });
             return false;
         }
-        seen.insert(key, own.id.clone());
+        seen.insert(key, building.id.clone());
         true
     });
     mends

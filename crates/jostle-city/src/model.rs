@@ -134,7 +134,7 @@ impl City {
 
 /// A record, and how it is read.
 fn record(name: &str, files: &Files, options: &RecordOptions) -> String {
-    let text = |own: &str| serde_json::Value::String(own.to_owned()).to_string();
+    let text = |content: &str| serde_json::Value::String(content.to_owned()).to_string();
     let shown = if builtin_record(name).is_some() {
         name.to_owned()
     } else {
@@ -148,14 +148,16 @@ fn record(name: &str, files: &Files, options: &RecordOptions) -> String {
     };
     add("record", Some(text(&shown)));
     add("unit", options.unit.as_deref().map(text));
-    add("step", options.step.map(|own| own.to_string()));
-    add("column", options.column.map(|own| own.to_string()));
+    add("step", options.step.map(|step| step.to_string()));
+    add("column", options.column.map(|column| column.to_string()));
     add("component", options.component.as_deref().map(text));
-    add("format", options.format.map(|own| text(own.key())));
-    add("record_scale", options.scale.map(|own| own.to_string()));
+    add("format", options.format.map(|format| text(format.key())));
+    add("record_scale", options.scale.map(|scale| scale.to_string()));
     add(
         "remove_mean",
-        options.remove_mean.map(|own| own.to_string()),
+        options
+            .remove_mean
+            .map(|remove_mean| remove_mean.to_string()),
     );
     if !options.layout.is_empty() {
         lines = "# Add read = { … } from the city file.\n".to_owned() + &lines;

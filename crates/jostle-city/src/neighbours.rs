@@ -75,11 +75,14 @@ impl Neighbours {
     pub fn within(buildings: &[Building], reach: f64) -> Self {
         let boxes: Vec<Option<Rect>> = buildings
             .iter()
-            .map(|own| own.outline.bounding_rect())
+            .map(|building| building.outline.bounding_rect())
             .collect();
-        let entries = boxes.iter().enumerate().filter_map(|(at, own)| {
-            let own = (*own)?;
-            let corners = [[own.min().x, own.min().y], [own.max().x, own.max().y]];
+        let entries = boxes.iter().enumerate().filter_map(|(at, bounds)| {
+            let bounds = (*bounds)?;
+            let corners = [
+                [bounds.min().x, bounds.min().y],
+                [bounds.max().x, bounds.max().y],
+            ];
             Some(GeomWithData::new(
                 Rectangle::from_corners(corners[0], corners[1]),
                 at,
@@ -87,9 +90,9 @@ impl Neighbours {
         });
         let tree = RTree::bulk_load(entries.collect());
         let of_one = |left: usize| {
-            let mut own = Self::default();
+            let mut neighbours = Self::default();
             let Some(bounds) = boxes[left] else {
-                return own;
+                return neighbours;
             };
             let envelope = AABB::from_corners(
                 [bounds.min().x - reach, bounds.min().y - reach],
@@ -104,12 +107,12 @@ impl Neighbours {
             for right in near {
                 match compare(&buildings[left], &buildings[right], reach) {
                     Met::Apart => {}
-                    Met::Overlap => own.overlaps.push([left, right]),
+                    Met::Overlap => neighbours.overlaps.push([left, right]),
                     Met::Near {
                         distance,
                         face,
                         normal,
-                    } => own.pairs.push(Pair {
+                    } => neighbours.pairs.push(Pair {
                         buildings: [left, right],
                         distance,
                         face,
@@ -120,13 +123,13 @@ impl Neighbours {
                     }),
                 }
             }
-            own
+            neighbours
         };
         let all: Vec<Self> = (0..buildings.len()).into_par_iter().map(of_one).collect();
         let mut found = Self::default();
-        for own in all {
-            found.pairs.extend(own.pairs);
-            found.overlaps.extend(own.overlaps);
+        for neighbour in all {
+            found.pairs.extend(neighbour.pairs);
+            found.overlaps.extend(neighbour.overlaps);
         }
         place(&mut found.pairs, buildings.len());
         found
@@ -163,9 +166,12 @@ fn compare(left: &Building, right: &Building, reach: f64) -> Met {
     let (face, normal) = facing(a, b, reach.max(distance) + 0.05);
     // Without walls that face each other, the direction is that between the middles of the boxes.
     let normal = normal.unwrap_or_else(|| {
-        let middle = |own: &Polygon| {
-            own.bounding_rect()
-                .map_or(Coord { x: 0.0, y: 0.0 }, |own| own.center())
+        let middle = |polygon: &Polygon| {
+            polygon
+                .bounding_rect()
+                .map_or(Coord { x: 0.0, y: 0.0 }, |bounding_rect| {
+                    bounding_rect.center()
+                })
         };
         let [from, to] = [middle(a), middle(b)];
         libm::atan2(to.y - from.y, to.x - from.x)
@@ -192,10 +198,10 @@ fn facing(a: &Polygon, b: &Polygon, reach: f64) -> (f64, Option<f64>) {
     let edges_b: Vec<Line> = b
         .exterior()
         .lines()
-        .filter(|own| near(own, &box_a))
+        .filter(|line| near(line, &box_a))
         .collect();
     let (mut face, mut sum) = (0.0, [0.0, 0.0]);
-    for edge in a.exterior().lines().filter(|own| near(own, &box_b)) {
+    for edge in a.exterior().lines().filter(|line| near(line, &box_b)) {
         let length = libm::hypot(edge.dx(), edge.dy());
         if length < 1e-6 {
             continue;
@@ -266,18 +272,18 @@ fn height_ratio(a: &Building, b: &Building) -> f64 {
 /// Says of every pair where it stands: a building is inside when it has neighbours on opposite sides.
 fn place(pairs: &mut [Pair], buildings: usize) {
     let mut sides: Vec<Vec<f64>> = vec![Vec::new(); buildings];
-    for own in pairs.iter().filter(|own| own.face >= CORNER) {
-        sides[own.buildings[0]].push(own.normal);
-        sides[own.buildings[1]].push(own.normal + std::f64::consts::PI);
+    for pair in pairs.iter().filter(|pair| pair.face >= CORNER) {
+        sides[pair.buildings[0]].push(pair.normal);
+        sides[pair.buildings[1]].push(pair.normal + std::f64::consts::PI);
     }
     let inside = |building: usize| {
-        let own = &sides[building];
-        own.iter().any(|a| own.iter().any(|b| opposite(*a, *b)))
+        let side = &sides[building];
+        side.iter().any(|a| side.iter().any(|b| opposite(*a, *b)))
     };
-    for own in pairs {
-        own.position = if own.face < CORNER {
+    for pair in pairs {
+        pair.position = if pair.face < CORNER {
             Position::Corner
-        } else if own.buildings.into_iter().all(inside) {
+        } else if pair.buildings.into_iter().all(inside) {
             Position::Inside
         } else {
             Position::End

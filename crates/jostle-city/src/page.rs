@@ -47,7 +47,7 @@ impl City {
         let links: Links<'_> = models
             .iter()
             .zip(links)
-            .map(|(own, link)| (own.pair, (own, link)))
+            .map(|(model, link)| (model.pair, (model, link)))
             .collect();
         let page = folder.join("index.html");
         write_atomically(&page, self.page(&answers, &order, &links).as_bytes())?;
@@ -69,15 +69,18 @@ impl City {
                 answers
                     .buildings
                     .iter()
-                    .map(|own| own.as_ref().map(of))
+                    .map(|building| building.as_ref().map(of))
                     .collect(),
             )
         };
-        let classes = self.structures.iter().map(|own| own.class.name.to_string());
+        let classes = self
+            .structures
+            .iter()
+            .map(|structure| structure.class.name.to_string());
         let levels = self
             .structures
             .iter()
-            .map(|own| own.class.level.name().to_owned());
+            .map(|structure| structure.class.level.name().to_owned());
         let half = OWN - 2;
         let twice = OWN + 2;
         let mut columns = vec![
@@ -100,7 +103,7 @@ impl City {
             for (state, name) in STATE_NAMES.into_iter().enumerate() {
                 columns.push((
                     format!("p_{name}{suffix}"),
-                    real(&|own| own.states[which][state]),
+                    real(&|answer| answer.states[which][state]),
                 ));
             }
         }
@@ -114,7 +117,7 @@ impl City {
              force_median_n,force_q90_n,p_worse,p_better\n",
         );
         for at in order {
-            let (pair, own) = (&self.neighbours.pairs[*at], &answers.pairs[*at]);
+            let (pair, answer) = (&self.neighbours.pairs[*at], &answers.pairs[*at]);
             let [left, right] = pair
                 .buildings
                 .map(|at| csv_field(&self.inventory.buildings[at].id));
@@ -124,14 +127,14 @@ impl City {
                 pair.position.name(),
                 pair.distance,
                 pair.face,
-                own.struck,
-                own.column,
-                own.closing[0],
-                own.closing[1],
-                own.force[0],
-                own.force[1],
-                own.worse,
-                own.better
+                answer.struck,
+                answer.column,
+                answer.closing[0],
+                answer.closing[1],
+                answer.force[0],
+                answer.force[1],
+                answer.worse,
+                answer.better
             );
         }
         text
@@ -139,20 +142,20 @@ impl City {
 
     fn geojson(&self, answers: &Answers) -> String {
         let mut text = String::from("{\"type\":\"FeatureCollection\",\"features\":[\n");
-        for (at, own) in self.inventory.buildings.iter().enumerate() {
-            let outline = self.inventory.plane.outline(&own.outline);
+        for (at, building) in self.inventory.buildings.iter().enumerate() {
+            let outline = self.inventory.plane.outline(&building.outline);
             let mut ring = String::new();
             for (corner, place) in outline.exterior_coords_iter().enumerate() {
                 let comma = if corner == 0 { "" } else { "," };
                 let _ = write!(ring, "{comma}[{:.8},{:.8}]", place.x, place.y);
             }
-            let mut known = json!({ "id": own.id, "storeys": own.likely_storeys(), "class": *self.structures[at].class.name });
-            if let Some(own) = &answers.buildings[at] {
+            let mut known = json!({ "id": building.id, "storeys": building.likely_storeys(), "class": *self.structures[at].class.name });
+            if let Some(building) = &answers.buildings[at] {
                 let round = |value: f64| (value * 1e4).round() / 1e4;
-                known["p_struck"] = json!(round(own.struck[OWN]));
-                known["p_column_strike"] = json!(round(own.column));
+                known["p_struck"] = json!(round(building.struck[OWN]));
+                known["p_column_strike"] = json!(round(building.column));
                 for (which, suffix) in ["_alone", ""].into_iter().enumerate() {
-                    let worse: f64 = own.states[which][2..].iter().sum();
+                    let worse: f64 = building.states[which][2..].iter().sum();
                     known[format!("p_moderate_or_worse{suffix}")] = json!(round(worse));
                 }
             }
@@ -181,11 +184,11 @@ impl City {
 
     /// Outlines and answers for the map: about forty bytes a building.
     fn data(&self, answers: &Answers) -> serde_json::Value {
-        let corner =
-            extent(&self.inventory.buildings).map_or([0.0; 2], |own| [own.min().x, own.min().y]);
+        let corner = extent(&self.inventory.buildings)
+            .map_or([0.0; 2], |extent| [extent.min().x, extent.min().y]);
         let (mut outlines, mut last) = (Vec::new(), [0_i64; 2]);
-        for own in &self.inventory.buildings {
-            let ring: Vec<_> = own.outline.exterior().0.iter().skip(1).collect();
+        for building in &self.inventory.buildings {
+            let ring: Vec<_> = building.outline.exterior().0.iter().skip(1).collect();
             number(&mut outlines, ring.len() as u64);
             for place in ring {
                 for (k, value) in [place.x, place.y].into_iter().enumerate() {
@@ -199,20 +202,24 @@ impl City {
         let width = MEDIANS.len() + 1 + 2 * (STATES - 1);
         let byte = |value: f64| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
         let mut values = Vec::with_capacity(width * answers.buildings.len());
-        for own in &answers.buildings {
-            let Some(own) = own else {
+        for building in &answers.buildings {
+            let Some(answer) = building else {
                 values.extend(std::iter::repeat_n(0, width));
                 continue;
             };
-            values.extend(own.struck.map(byte));
-            values.push(byte(own.column));
-            for states in own.states {
+            values.extend(answer.struck.map(byte));
+            values.push(byte(answer.column));
+            for states in answer.states {
                 values.extend((1..STATES).map(|state| byte(states[state..].iter().sum())));
             }
         }
         let mut what: Vec<String> = Vec::new();
-        let kinds = self.structures.iter().map(|own| {
-            let name = format!("{}, {} code", own.class.name, own.class.level.name());
+        let kinds = self.structures.iter().map(|structure| {
+            let name = format!(
+                "{}, {} code",
+                structure.class.name,
+                structure.class.level.name()
+            );
             what.iter()
                 .position(|known| *known == name)
                 .unwrap_or_else(|| {
@@ -224,7 +231,7 @@ impl City {
         let known: Vec<u8> = answers
             .buildings
             .iter()
-            .map(|own| u8::from(own.is_some()))
+            .map(|building| u8::from(building.is_some()))
             .collect();
         json!({
             "count": self.inventory.buildings.len(),

@@ -59,8 +59,8 @@ impl Plane {
     }
 
     /// An outline in the coordinates of the inventory.
-    pub(crate) fn outline(&self, own: &Polygon) -> Polygon {
-        own.map_coords(|at| self.original(at))
+    pub(crate) fn outline(&self, polygon: &Polygon) -> Polygon {
+        polygon.map_coords(|at| self.original(at))
     }
 }
 

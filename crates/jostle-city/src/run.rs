@@ -92,17 +92,17 @@ impl City {
         let types = Types::read(&file.types).map_err(CityError::Input)?;
         let (structures, assumed) = structures(&inventory, &file, &types)?;
         inventory.mends.extend(assumed);
-        inventory.mends.sort_by_key(|own| own.row);
-        let ids: Vec<u64> = structures.iter().map(|own| own.id).collect();
+        inventory.mends.sort_by_key(|mend| mend.row);
+        let ids: Vec<u64> = structures.iter().map(|structure| structure.id).collect();
         let pair_ids = neighbours
             .pairs
             .iter()
-            .map(|own| number_of_pair(&ids, own))
+            .map(|pair| number_of_pair(&ids, pair))
             .collect();
         let found = blocks(&neighbours.pairs, inventory.buildings.len());
         let shaking = Shaking::of(&file, &inventory, &found)?;
         let parts = parts(&found, file.draws * shaking.count(), PART);
-        let mut own = Self {
+        let mut city = Self {
             file,
             inventory,
             neighbours,
@@ -114,8 +114,8 @@ impl City {
             fingerprint: String::new(),
             parts,
         };
-        own.fingerprint = own.fingerprint()?;
-        Ok(own)
+        city.fingerprint = city.fingerprint()?;
+        Ok(city)
     }
 
     /// The city of a folder that a run wrote into, by the city file and the options that it was run with.
@@ -129,8 +129,8 @@ impl City {
             .map_err(|error| CityError::Input(error.to_string()))?;
         file.draws = known.draws;
         file.tolerance = known.tolerance;
-        let own = Self::new(file)?;
-        if own.fingerprint != known.fingerprint {
+        let city = Self::new(file)?;
+        if city.fingerprint != known.fingerprint {
             return Err(CityError::of(
                 folder,
                 format!(
@@ -139,7 +139,7 @@ impl City {
                 ),
             ));
         }
-        Ok(own)
+        Ok(city)
     }
 
     /// What shakes it.
@@ -270,16 +270,16 @@ impl City {
         let of_part = |part: usize| -> usize {
             self.blocks[self.parts[part].clone()]
                 .iter()
-                .map(|own| own.pairs.len() * each)
+                .map(|block| block.pairs.len() * each)
                 .sum()
         };
         for part in 0..self.parts.len() {
             let path = part_path(folder, part);
             let finished = self.holds(&path);
-            let own = options
+            let in_shard = options
                 .shard
                 .is_none_or(|(shard, of)| part % of == shard - 1);
-            if !own {
+            if !in_shard {
                 done.missing += usize::from(!finished);
                 done.of -= of_part(part);
                 continue;
@@ -303,7 +303,7 @@ impl City {
     fn holds(&self, path: &Path) -> bool {
         path.exists()
             && Table::read(path)
-                .is_ok_and(|own| own.facts.get("fingerprint") == Some(&self.fingerprint))
+                .is_ok_and(|table| table.facts.get("fingerprint") == Some(&self.fingerprint))
     }
 
     /// With smaller parts.
@@ -323,16 +323,16 @@ impl City {
     pub fn cases_for_tests(&self, folder: &Path) -> Result<Vec<[f64; 7]>, CityError> {
         let mut all = Vec::new();
         for path in self.part_paths(folder) {
-            all.extend(read_cases(&path)?.0.iter().map(|own| {
-                let gap = own.gap.unwrap_or(f64::INFINITY);
+            all.extend(read_cases(&path)?.0.iter().map(|case| {
+                let gap = case.gap.unwrap_or(f64::INFINITY);
                 [
-                    own.closing,
+                    case.closing,
                     gap,
-                    own.row as f64,
-                    own.impacts as f64,
-                    own.pair as f64,
-                    own.drift[0][0],
-                    own.drift[1][0],
+                    case.row as f64,
+                    case.impacts as f64,
+                    case.pair as f64,
+                    case.drift[0][0],
+                    case.drift[1][0],
                 ]
             }));
         }
@@ -364,9 +364,9 @@ impl City {
         stop: &dyn Fn() -> bool,
         show: &mut dyn FnMut(usize),
     ) -> Result<(), CityError> {
-        let own = &self.blocks[self.parts[part].clone()];
-        let jobs = self.jobs(own);
-        let total: usize = jobs.iter().map(|own| own.line.pairs.len()).sum();
+        let block = &self.blocks[self.parts[part].clone()];
+        let jobs = self.jobs(block);
+        let total: usize = jobs.iter().map(|job| job.line.pairs.len()).sum();
         let motions = self.directed(&jobs)?;
         let options = Options::for_tolerance(self.file.tolerance);
         let fault = |error: jostle_batch::Error| CityError::Analysis(error.to_string());
@@ -393,7 +393,7 @@ impl City {
                 let job = &jobs[*at];
                 job.line.pairs.iter().enumerate().any(|(gap, pair)| {
                     let width = self.width(*pair, job.draw);
-                    width.is_some_and(|own| closing(&free[*at], gap) > own)
+                    width.is_some_and(|width| closing(&free[*at], gap) > width)
                 })
             })
             .collect();
@@ -434,9 +434,9 @@ impl City {
         for (at, job) in jobs.iter().enumerate() {
             cases.extend(self.cases_of(job, &free[at], with.get(&at)));
         }
-        cases.sort_by_key(|own| (own.pair, own.draw, own.motion));
+        cases.sort_by_key(|case| (case.pair, case.draw, case.motion));
         let base = Drifts::of(&jobs, |at| with.get(&at).unwrap_or(&free[at]));
-        let cut = self.cut_otherwise(own, &base, &options)?;
+        let cut = self.cut_otherwise(block, &base, &options)?;
         let facts = [
             ("sample", sample.to_json()),
             ("cut", serde_json::json!(cut).to_string()),
@@ -450,18 +450,18 @@ impl City {
     /// that of the usual cut \[–\].
     fn cut_otherwise(
         &self,
-        own: &[Block],
+        blocks: &[Block],
         base: &Drifts,
         options: &Options,
     ) -> Result<Vec<f64>, CityError> {
-        let lines = own
+        let lines = blocks
             .iter()
             .map(|block| (self.lines(block, 0, |width| width), block));
         let cut: Vec<&Block> = lines
             .filter(|(lines, _)| lines.len() > 1)
             .map(|(_, block)| block)
             .collect();
-        let pairs: usize = own.iter().map(|own| own.pairs.len()).sum();
+        let pairs: usize = blocks.iter().map(|block| block.pairs.len()).sum();
         let wanted = (CUT_BLOCKS * pairs).div_ceil(self.neighbours.pairs.len().max(1));
         let every = (cut.len() / wanted.max(1)).max(1);
         let mut jobs = Vec::new();
@@ -476,8 +476,8 @@ impl City {
         let motions = self.directed(&jobs)?;
         let mut peaks = Vec::with_capacity(jobs.len());
         let rows = jobs.iter().map(|job| self.row(job, &motions, true));
-        jostle_batch::run(&motions.own, rows, options, |_, own| {
-            peaks.push(own);
+        jostle_batch::run(&motions.own, rows, options, |_, row_peaks| {
+            peaks.push(row_peaks);
             ControlFlow::Continue(())
         })
         .map_err(|error| CityError::Analysis(error.to_string()))?;
@@ -491,9 +491,9 @@ impl City {
 
     /// Every row of some blocks in every draw under every motion. Draws of a row follow each other: alike rows fill the
     /// lanes of a batch.
-    fn jobs(&self, own: &[Block]) -> Vec<Job> {
+    fn jobs(&self, blocks: &[Block]) -> Vec<Job> {
         let mut jobs = Vec::new();
-        for block in own {
+        for block in blocks {
             let draws: Vec<Vec<Line>> = (0..self.file.draws)
                 .map(|draw| self.lines(block, draw, |width| width))
                 .collect();
@@ -520,9 +520,9 @@ impl City {
 
     /// The gap of a pair in a draw.
     pub(crate) fn width(&self, pair: usize, draw: usize) -> Option<f64> {
-        let own = &self.neighbours.pairs[pair];
+        let neighbour_pair = &self.neighbours.pairs[pair];
         self.gaps()
-            .draw(self.pair_ids[pair], own.distance, draw as u64)
+            .draw(self.pair_ids[pair], neighbour_pair.distance, draw as u64)
     }
 
     pub(crate) fn gaps(&self) -> GapWidths {
@@ -582,8 +582,8 @@ impl City {
         let jobs = [Job { line, draw, motion }];
         let motions = self.directed(&jobs)?;
         let row = self.row(&jobs[0], &motions, true);
-        let own = motions.own[row.motion].clone();
-        Ok((row, own))
+        let motion = motions.own[row.motion].clone();
+        Ok((row, motion))
     }
 
     /// The motion of a job at the place of its row.
@@ -614,13 +614,16 @@ impl City {
             .collect();
         wanted.sort_unstable();
         wanted.dedup();
-        let mut own = Vec::with_capacity(wanted.len());
+        let mut motions = Vec::with_capacity(wanted.len());
         for one in wanted.chunk_by(|a, b| a.0 == b.0) {
             let motion = self.shaking.motion(one[0].0)?;
-            let directions = one.iter().map(|own| own.1 as f64 * DIRECTION);
-            own.extend(directions.map(|direction| along(&motion, direction)));
+            let directions = one.iter().map(|entry| entry.1 as f64 * DIRECTION);
+            motions.extend(directions.map(|direction| along(&motion, direction)));
         }
-        Ok(Directed { wanted, own })
+        Ok(Directed {
+            wanted,
+            own: motions,
+        })
     }
 
     fn cases_of(&self, job: &Job, free: &Peaks, with: Option<&Peaks>) -> Vec<Case> {
@@ -656,13 +659,22 @@ impl City {
                     row: job.line.buildings.len(),
                     gap: self.width(*pair, job.draw),
                     closing: closing(free, gap),
-                    force: contacts.iter().map(|own| own.force).fold(0.0, f64::max),
-                    impulse: contacts.iter().map(|own| own.impulse).fold(0.0, f64::max),
-                    impacts: contacts.iter().map(|own| own.impacts as usize).sum(),
+                    force: contacts
+                        .iter()
+                        .map(|contact| contact.force)
+                        .fold(0.0, f64::max),
+                    impulse: contacts
+                        .iter()
+                        .map(|contact| contact.impulse)
+                        .fold(0.0, f64::max),
+                    impacts: contacts
+                        .iter()
+                        .map(|contact| contact.impacts as usize)
+                        .sum(),
                     column_impacts: contacts
                         .iter()
-                        .filter(|own| own.column)
-                        .map(|own| own.impacts as usize)
+                        .filter(|contact| contact.column)
+                        .map(|contact| contact.impacts as usize)
                         .sum(),
                     ..Case::default()
                 };
@@ -692,9 +704,9 @@ impl Drifts {
             .filter(|(_, job)| job.draw == 0 && job.motion == 0)
         {
             for (building, peaks) in job.line.buildings.iter().zip(&peaks(at).buildings) {
-                let own = peaks.drift.iter().copied().fold(0.0, f64::max);
+                let fold = peaks.drift.iter().copied().fold(0.0, f64::max);
                 let kept = greatest.entry(*building).or_insert(0.0_f64);
-                *kept = kept.max(own);
+                *kept = kept.max(fold);
             }
         }
         Self(greatest)
@@ -719,7 +731,7 @@ impl Directed {
 fn closing(peaks: &Peaks, gap: usize) -> f64 {
     peaks.gaps[gap]
         .iter()
-        .map(|own| own.closing)
+        .map(|gap| gap.closing)
         .fold(f64::NEG_INFINITY, f64::max)
         .max(0.0)
 }
@@ -732,16 +744,20 @@ fn along(motion: &GroundMotion, direction: f64) -> Motion {
     };
     let (one, other) = match &motion.bearing {
         None => (1.0, 0.0),
-        Some(own) => {
-            let angle = direction.to_radians() - own.angle;
+        Some(bearing) => {
+            let angle = direction.to_radians() - bearing.angle;
             (libm::cos(angle), libm::sin(angle))
         }
     };
-    let across = motion.bearing.as_ref().and_then(|own| own.across.as_ref());
+    let across = motion
+        .bearing
+        .as_ref()
+        .and_then(|bearing| bearing.across.as_ref());
     let points = (motion.duration / step).round() as usize + 1;
     let acceleration = (0..points).map(|at| {
         let time = at as f64 * step;
-        one * motion.acceleration(time) + across.map_or(0.0, |own| other * own.acceleration(time))
+        one * motion.acceleration(time)
+            + across.map_or(0.0, |component| other * component.acceleration(time))
     });
     Motion {
         step,
@@ -752,8 +768,8 @@ fn along(motion: &GroundMotion, direction: f64) -> Motion {
 /// Blocks of about as many cases together.
 fn parts(blocks: &[Block], each: usize, size: usize) -> Vec<std::ops::Range<usize>> {
     let (mut parts, mut first, mut cases) = (Vec::new(), 0, 0);
-    for (at, own) in blocks.iter().enumerate() {
-        cases += own.pairs.len() * each;
+    for (at, block) in blocks.iter().enumerate() {
+        cases += block.pairs.len() * each;
         if cases >= size {
             parts.push(first..at + 1);
             (first, cases) = (at + 1, 0);

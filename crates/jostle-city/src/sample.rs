@@ -45,12 +45,12 @@ impl Sampled {
             return;
         };
         self.rows += value["rows"].as_u64().unwrap_or(0) as usize;
-        let own = value["deviations"]
+        let deviations = value["deviations"]
             .as_array()
             .into_iter()
             .flatten()
             .filter_map(Value::as_f64);
-        self.deviations.extend(own);
+        self.deviations.extend(deviations);
     }
 
     /// Share of peaks within a tolerance, and the worst \[–\]; `None` without any.
@@ -59,7 +59,7 @@ impl Sampled {
         let within = self
             .deviations
             .iter()
-            .filter(|own| **own <= tolerance)
+            .filter(|deviation| **deviation <= tolerance)
             .count();
         let worst = self.deviations.iter().copied().fold(0.0, f64::max);
         (!self.deviations.is_empty()).then(|| (within as f64 / self.deviations.len() as f64, worst))

@@ -42,17 +42,17 @@ impl Structure {
             factor("strength", scatter[1]),
             factor("damping", scatter[2]),
         ];
-        let mut own = self.class.building(self.storeys, self.area);
-        for storey in &mut own.storeys {
+        let mut building = self.class.building(self.storeys, self.area);
+        for storey in &mut building.storeys {
             storey.height = self.storey_height;
             storey.stiffness *= stiffness;
             storey.first_corner *= strength / stiffness;
             storey.second_corner *= strength / stiffness;
         }
         // The same ratio of damping at the changed frequencies, but for its own scatter.
-        own.alpha *= damping * stiffness.sqrt();
-        own.beta *= damping / stiffness.sqrt();
-        own
+        building.alpha *= damping * stiffness.sqrt();
+        building.beta *= damping / stiffness.sqrt();
+        building
     }
 
     /// Damage state of a drift ratio: 0 none, 1 slight, 2 moderate, 3 extensive, 4 complete.
@@ -60,7 +60,7 @@ impl Structure {
         self.class
             .drifts
             .iter()
-            .filter(|own| ratio >= **own)
+            .filter(|drift| ratio >= **drift)
             .count()
     }
 }
@@ -84,9 +84,9 @@ pub(crate) fn structures(
         .of(&file.kind, 1, fixed.unwrap_or(Level::Moderate))
         .map_err(|problem| CityError::Input(format!("buildings.type: {problem}")))?;
     let since = match &file.level {
-        CityLevel::ByYear(Some(own)) => {
+        CityLevel::ByYear(Some(years)) => {
             let levels = [Level::Low, Level::Moderate, Level::High];
-            let pairs = levels.into_iter().zip(own);
+            let pairs = levels.into_iter().zip(years);
             pairs
                 .filter_map(|(level, year)| Some((level, (*year)?)))
                 .collect()
@@ -95,16 +95,16 @@ pub(crate) fn structures(
     };
     let mut mends = Vec::new();
     let mut all = Vec::with_capacity(inventory.buildings.len());
-    for own in &inventory.buildings {
+    for building in &inventory.buildings {
         let mut assumed = |detail: String| {
             mends.push(Mend {
-                id: own.id.clone(),
-                row: own.row,
+                id: building.id.clone(),
+                row: building.row,
                 what: "assumed",
                 detail,
             });
         };
-        let known = own.likely_storeys();
+        let known = building.likely_storeys();
         let storeys = known.min(MOST_STOREYS);
         if storeys < known {
             assumed(format!(
@@ -112,14 +112,15 @@ pub(crate) fn structures(
             ));
         }
         let by_year = || {
-            own.year
+            building
+                .year
                 .map_or(Level::Moderate, |year| Level::in_year(year, &since))
         };
         let level = fixed.unwrap_or_else(by_year);
-        let kind = own.kind.as_deref().unwrap_or(&file.kind);
+        let kind = building.kind.as_deref().unwrap_or(&file.kind);
         let class = types
             .of(kind, storeys, level)
-            .map_err(|problem| fault(format!("row {}: {problem}", own.row)))?;
+            .map_err(|problem| fault(format!("row {}: {problem}", building.row)))?;
         if !class.storeys.contains(&storeys) {
             assumed(format!(
                 "{} for {storeys} storeys: the type is meant for {} to {}",
@@ -129,19 +130,19 @@ pub(crate) fn structures(
             ));
         }
         // Floors stand where the inventory says, if that is a storey; else where the class has them.
-        let given = own
+        let given = building
             .height
-            .filter(|_| own.storeys.is_some())
+            .filter(|_| building.storeys.is_some())
             .map(|height| height / known as f64);
         let storey_height = given
-            .filter(|own| STOREYS.contains(own))
+            .filter(|height| STOREYS.contains(height))
             .unwrap_or(class.storey_height);
         all.push(Structure {
             class,
             storeys,
-            area: own.area,
+            area: building.area,
             storey_height,
-            id: number_of(&own.id),
+            id: number_of(&building.id),
         });
     }
     Ok((all, mends))

@@ -120,7 +120,7 @@ pub fn write_tables(
         Values::Whole(
             blocks
                 .iter()
-                .map(|own| i32::try_from(of(own)).ok())
+                .map(|block| i32::try_from(of(block)).ok())
                 .collect(),
         )
     };
@@ -189,7 +189,7 @@ pub(crate) fn write_buildings(
     let outlines = inventory
         .buildings
         .iter()
-        .map(|own| binary(&inventory.plane.outline(&own.outline)));
+        .map(|building| binary(&inventory.plane.outline(&building.outline)));
     columns.push(("geometry".to_owned(), Values::Bytes(outlines.collect())));
     // Without a reference system readers take longitude and latitude; null says that it is unknown.
     let mut column = json!({ "encoding": "WKB", "geometry_types": ["Polygon"] });
@@ -202,24 +202,24 @@ pub(crate) fn write_buildings(
 }
 
 /// An outline as WKB.
-fn binary(own: &Polygon) -> Vec<u8> {
+fn binary(polygon: &Polygon) -> Vec<u8> {
     let mut bytes = Vec::new();
     // Writing into memory cannot fail, and an outline has two dimensions.
-    let _ = wkb::writer::write_polygon(&mut bytes, own, &wkb::writer::WriteOptions::default());
+    let _ = wkb::writer::write_polygon(&mut bytes, polygon, &wkb::writer::WriteOptions::default());
     bytes
 }
 
 /// What was mended, one line each.
 fn mended_csv(mends: &[Mend]) -> String {
     let mut text = String::from("row,id,what,detail\n");
-    for own in mends {
+    for mend in mends {
         let _ = writeln!(
             text,
             "{},{},{},{}",
-            own.row,
-            csv_field(&own.id),
-            csv_field(own.what),
-            csv_field(&own.detail)
+            mend.row,
+            csv_field(&mend.id),
+            csv_field(mend.what),
+            csv_field(&mend.detail)
         );
     }
     text
@@ -243,7 +243,7 @@ impl Known {
             .map_err(|error| CityError::of(&path, error))?;
         let known: serde_json::Value =
             serde_json::from_str(&text).map_err(|error| CityError::of(&path, error))?;
-        let own = || {
+        let known_of = || {
             Some(Self {
                 city_file: PathBuf::from(known["city_file"].as_str()?),
                 draws: usize::try_from(known["draws"].as_u64()?).ok()?,
@@ -251,7 +251,7 @@ impl Known {
                 fingerprint: known["fingerprint"].as_str()?.to_owned(),
             })
         };
-        own().ok_or_else(|| CityError::of(&path, "is not what `jostle city run` wrote"))
+        known_of().ok_or_else(|| CityError::of(&path, "is not what `jostle city run` wrote"))
     }
 }
 

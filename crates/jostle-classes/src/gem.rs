@@ -15,14 +15,14 @@ pub(crate) fn gem_family(text: &str) -> Result<&'static str, String> {
     let mut attributes = upper.split('/');
     // A direction may stand first.
     let first = attributes
-        .find(|own| !own.starts_with('D'))
+        .find(|attribute| !attribute.starts_with('D'))
         .unwrap_or_default();
     let mut parts = first.split('+');
     let material = parts.next().unwrap_or_default();
-    let precast = parts.any(|own| own == "PC" || own == "PCPS");
+    let precast = parts.any(|part| part == "PC" || part == "PCPS");
     let systems: Vec<&str> = attributes
-        .filter(|own| own.starts_with('L'))
-        .filter_map(|own| own.split('+').next())
+        .filter(|attribute| attribute.starts_with('L'))
+        .filter_map(|attribute| attribute.split('+').next())
         .collect();
     let system = systems.first().copied().unwrap_or("");
     let of = |wall, frame, infilled, braced, dual| match system {

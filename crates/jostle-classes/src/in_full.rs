@@ -42,8 +42,8 @@ pub fn both_ways(
     };
     let mut batch = None;
     let one = [row.clone()];
-    jostle_batch::run(std::slice::from_ref(motion), one, options, |_, own| {
-        batch = Some(own);
+    jostle_batch::run(std::slice::from_ref(motion), one, options, |_, peaks| {
+        batch = Some(peaks);
         ControlFlow::Continue(())
     })
     .map_err(|error| error.to_string())?;
@@ -55,7 +55,10 @@ pub fn both_ways(
     let text = text.replacen("[analysis]\n", keys, 1);
     let input = read_model_text("row.toml", &text, Format::Toml, Path::new(""))
         .map_err(|error| error.to_string())?;
-    let wave = motion.acceleration.iter().map(|own| own * row.scale);
+    let wave = motion
+        .acceleration
+        .iter()
+        .map(|acceleration| acceleration * row.scale);
     let motion = GroundMotion::sampled("motion", motion.step, wave.collect());
     let shown = |faults: Vec<jostle::ModelFault>| {
         faults.first().map_or_else(String::new, ToString::to_string)
@@ -81,14 +84,19 @@ pub fn both_ways(
     let (mut drift, mut acceleration) = (Vec::new(), Vec::new());
     for (building, floors) in row.buildings.iter().zip(outcome.peaks.buildings()) {
         // There drifts are ratios.
-        let heights = building.storeys.iter().map(|own| own.height);
+        let heights = building.storeys.iter().map(|storey| storey.height);
         let drifts = floors.iter().zip(heights);
         drift.push(
             drifts
-                .map(|(own, height)| own.storey_drift() * height)
+                .map(|(floor, height)| floor.storey_drift() * height)
                 .collect(),
         );
-        acceleration.push(floors.iter().map(|own| own.total_acceleration()).collect());
+        acceleration.push(
+            floors
+                .iter()
+                .map(|floor| floor.total_acceleration())
+                .collect(),
+        );
     }
     // Contacts of gaps without a law are not in the model.
     let mut contact = 0;
@@ -98,11 +106,11 @@ pub fn both_ways(
             force.push(vec![0.0; found.len()]);
             continue;
         }
-        let own = (contact..contact + found.len()).map(|at| {
-            let impacts = outcome.impacts.iter().filter(|own| own.contact == at);
-            impacts.map(|own| own.peak_force).fold(0.0, f64::max)
+        let fold = (contact..contact + found.len()).map(|at| {
+            let impacts = outcome.impacts.iter().filter(|impact| impact.contact == at);
+            impacts.map(|impact| impact.peak_force).fold(0.0, f64::max)
         });
-        force.push(own.collect());
+        force.push(fold.collect());
         contact += found.len();
     }
     Ok(Some(BothWays {
@@ -124,24 +132,29 @@ impl BothWays {
         let force = self.batch.gaps.iter().zip(&self.force);
         [
             drift
-                .flat_map(|(own, full)| over_greatest(own.drift.iter().copied(), full))
+                .flat_map(|(building, full)| over_greatest(building.drift.iter().copied(), full))
                 .collect(),
             acceleration
-                .flat_map(|(own, full)| over_greatest(own.acceleration.iter().copied(), full))
+                .flat_map(|(building, full)| {
+                    over_greatest(building.acceleration.iter().copied(), full)
+                })
                 .collect(),
             force
-                .flat_map(|(own, full)| over_greatest(own.iter().map(|own| own.force), full))
+                .flat_map(|(contacts, full)| {
+                    over_greatest(contacts.iter().map(|contact| contact.force), full)
+                })
                 .collect(),
         ]
     }
 }
 
-fn over_greatest(own: impl Iterator<Item = f64>, full: &[f64]) -> Vec<f64> {
+fn over_greatest(values: impl Iterator<Item = f64>, full: &[f64]) -> Vec<f64> {
     let greatest = full.iter().copied().fold(0.0, f64::max);
     if greatest <= 0.0 {
         return Vec::new();
     }
-    own.zip(full)
+    values
+        .zip(full)
         .map(|(a, b)| (a - b).abs() / greatest)
         .collect()
 }

@@ -13,7 +13,7 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
     let columns = row
         .gaps
         .iter()
-        .flat_map(|own| &own.contacts)
+        .flat_map(|gap| &gap.contacts)
         .any(Contact::strikes_column);
     let remark = if columns {
         "# Slabs strike columns between floors here. A shear building has none: they strike the nearest floor instead.\n"
@@ -22,12 +22,12 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
     };
     let row = &at_floors(row);
     let mut text = format!("{remark}[motion]\n{motion}\n\n[analysis]\ntolerance = {tolerance:e}\n");
-    for (at, own) in row.buildings.iter().enumerate() {
+    for (at, building) in row.buildings.iter().enumerate() {
         let list = |value: fn(&Storey) -> f64, unit: &str| {
-            let all = own
+            let all = building
                 .storeys
                 .iter()
-                .map(|own| format!("\"{} {unit}\"", value(own)));
+                .map(|storey| format!("\"{} {unit}\"", value(storey)));
             format!("[{}]", all.collect::<Vec<_>>().join(", "))
         };
         let _ = write!(
@@ -35,17 +35,17 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
             "\n[[building]]\nname = \"B{}\"\nkind = \"shear\"\np_delta = false\nstoreys = {}\nmass = {}\nstiffness = {}\n\
              storey_height = {}\ndamping = {{ alpha = \"{} 1/s\", beta = \"{} s\" }}\n",
             at + 1,
-            own.storeys.len(),
-            list(|own| own.mass, "kg"),
-            list(|own| own.stiffness, "N/m"),
-            list(|own| own.height, "m"),
-            own.alpha,
-            own.beta
+            building.storeys.len(),
+            list(|building| building.mass, "kg"),
+            list(|building| building.stiffness, "N/m"),
+            list(|building| building.height, "m"),
+            building.alpha,
+            building.beta
         );
         if let Some(hinges) = hinges(
-            own,
-            &list(|own| own.first_corner, "m"),
-            &list(|own| own.second_corner, "m"),
+            building,
+            &list(|storey| storey.first_corner, "m"),
+            &list(|storey| storey.second_corner, "m"),
         ) {
             let _ = writeln!(text, "hinges = {{ {hinges} }}");
         }
@@ -86,8 +86,8 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
 /// columns between floors.
 #[must_use]
 pub fn at_floors(row: &Row) -> Row {
-    let mut own = row.clone();
-    for (at, gap) in own.gaps.iter_mut().enumerate() {
+    let mut row_at_floors = row.clone();
+    for (at, gap) in row_at_floors.gaps.iter_mut().enumerate() {
         let nearest = |face: Face, building: usize| {
             // Half a storey up and more is nearer to the floor above; below the first floor there is only the ground.
             let floor = if face.share >= 0.5 || face.floor == 0 {
@@ -109,24 +109,27 @@ pub fn at_floors(row: &Row) -> Row {
             }
         }
         // From the ground up, as a model has its contacts.
-        contacts.sort_by_key(|own| (own.left.floor, own.right.floor));
+        contacts.sort_by_key(|contact| (contact.left.floor, contact.right.floor));
         gap.contacts = contacts;
     }
-    own
+    row_at_floors
 }
 
 /// Where neighbours touch: floors from 1, and the tolerance of their levels where they differ.
 fn points(gap: &Gap, left: &Building, right: &Building) -> String {
-    let level = |own: &Building, floor: usize| {
-        own.storeys[..=floor]
+    let level = |building: &Building, floor: usize| {
+        building.storeys[..=floor]
             .iter()
-            .map(|own| own.height)
+            .map(|storey| storey.height)
             .sum::<f64>()
     };
     let contacts = gap.contacts.iter();
-    let pairs = contacts.map(|own| format!("[{}, {}]", own.left.floor + 1, own.right.floor + 1));
+    let pairs = contacts
+        .map(|contact| format!("[{}, {}]", contact.left.floor + 1, contact.right.floor + 1));
     let pairs = pairs.collect::<Vec<_>>().join(", ");
-    let apart = |own: &Contact| (level(left, own.left.floor) - level(right, own.right.floor)).abs();
+    let apart = |contact: &Contact| {
+        (level(left, contact.left.floor) - level(right, contact.right.floor)).abs()
+    };
     let most = gap.contacts.iter().map(apart).fold(0.0, f64::max);
     if most > 1e-3 {
         format!(
@@ -139,13 +142,13 @@ fn points(gap: &Gap, left: &Building, right: &Building) -> String {
 }
 
 /// The table of the storeys' yielding, if they yield. Ratios are those of the first storey.
-fn hinges(own: &Building, first: &str, second: &str) -> Option<String> {
-    let storey = own.storeys.first()?;
+fn hinges(building: &Building, first: &str, second: &str) -> Option<String> {
+    let storey = building.storeys.first()?;
     let [two, three] = [storey.second_ratio, storey.third_ratio];
     let corners = format!(
         "cracking = {first}, yield = {second}, post_cracking = {two}, post_yield = {three}"
     );
-    match own.rule {
+    match building.rule {
         Rule::Elastic => None,
         Rule::Bilinear => Some(format!(
             "rule = \"bilinear\", yield = {first}, post_yield = {two}"

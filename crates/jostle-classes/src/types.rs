@@ -124,25 +124,25 @@ impl Types {
     /// All faults of both tables, one a line, with file, line and column.
     pub fn read(tables: &TypesTables) -> Result<Self, String> {
         let mut faults = Vec::new();
-        let mut own = Self::of_hazus(tables.area_mass);
+        let mut hazus = Self::of_hazus(tables.area_mass);
         if let Some(path) = &tables.types {
             match text_of(path)
                 .and_then(|text| Self::of_text(&name_of(path), &text, tables.area_mass))
             {
-                Ok(classes) => own.classes = classes,
+                Ok(classes) => hazus.classes = classes,
                 Err(problem) => faults.push(problem),
             }
-            own.name = Some(name_of(path));
+            hazus.name = Some(name_of(path));
         }
         if let Some(path) = &tables.damage {
             match text_of(path).and_then(|text| damage_of(&name_of(path), &text)) {
-                Ok(damage) => own.damage = damage,
+                Ok(damage) => hazus.damage = damage,
                 Err(problem) => faults.push(problem),
             }
-            own.damage_name = Some(name_of(path));
+            hazus.damage_name = Some(name_of(path));
         }
         if faults.is_empty() {
-            Ok(own)
+            Ok(hazus)
         } else {
             Err(faults.join("\n"))
         }
@@ -190,13 +190,13 @@ impl Types {
         if found.is_empty() {
             return Err(self.unknown(kind));
         }
-        let away = |own: &&&Class| {
-            let (least, most) = (*own.storeys.start(), *own.storeys.end());
+        let away = |class: &&&Class| {
+            let (least, most) = (*class.storeys.start(), *class.storeys.end());
             least.saturating_sub(storeys) + storeys.saturating_sub(most)
         };
-        let at_level = found.iter().filter(|own| own.level == level);
+        let at_level = found.iter().filter(|named| named.level == level);
         let Some(class) = at_level.min_by_key(away) else {
-            let levels: BTreeSet<Level> = found.iter().map(|own| own.level).collect();
+            let levels: BTreeSet<Level> = found.iter().map(|named| named.level).collect();
             let levels: Vec<&str> = levels.into_iter().map(Level::name).collect();
             return Err(format!(
                 "\"{kind}\" has no row for the design level {} in {}, only for {}",
@@ -220,23 +220,23 @@ impl Types {
 
     /// Rows of a type by its name, or by its name without the L, M or H of its height.
     fn rows_named(&self, kind: &str) -> Vec<&Class> {
-        let named = |own: &&Class| own.name.eq_ignore_ascii_case(kind);
+        let named = |class: &&Class| class.name.eq_ignore_ascii_case(kind);
         let found: Vec<&Class> = self.classes.iter().filter(named).collect();
         if !found.is_empty() {
             return found;
         }
-        let of_family = |own: &&Class| family(&own.name).eq_ignore_ascii_case(kind);
+        let of_family = |class: &&Class| family(&class.name).eq_ignore_ascii_case(kind);
         self.classes.iter().filter(of_family).collect()
     }
 
     fn damage_drifts(&self, class: &Class, storeys: usize) -> Option<[f64; 4]> {
         let of = |kind: &str| {
-            let rows = self.damage.iter().filter(|own| {
-                own.level == class.level
-                    && own.kind.eq_ignore_ascii_case(kind)
-                    && own.storeys.contains(&storeys.min(MOST_STOREYS))
+            let rows = self.damage.iter().filter(|damage| {
+                damage.level == class.level
+                    && damage.kind.eq_ignore_ascii_case(kind)
+                    && damage.storeys.contains(&storeys.min(MOST_STOREYS))
             });
-            rows.map(|own| own.drifts).next()
+            rows.map(|row| row.drifts).next()
         };
         of(&class.name).or_else(|| of(family(&class.name)))
     }
@@ -248,7 +248,7 @@ impl Types {
                  L, M or H or without) nor a taxonomy string of GEM such as CR/LFM"
             );
         };
-        let names: BTreeSet<&str> = self.classes.iter().map(|own| &*own.name).collect();
+        let names: BTreeSet<&str> = self.classes.iter().map(|class| &*class.name).collect();
         let names: Vec<&str> = names.into_iter().collect();
         format!(
             "\"{kind}\" is no type of {table}, which has {}",
@@ -277,7 +277,7 @@ impl Types {
 /// The name of a type without the L, M or H of its height.
 fn family(name: &str) -> &str {
     name.strip_suffix(['L', 'M', 'H'])
-        .filter(|own| !own.is_empty())
+        .filter(|strip_suffix| !strip_suffix.is_empty())
         .unwrap_or(name)
 }
 
@@ -407,7 +407,8 @@ impl Table {
             let (column, unit) = column_of(stated, lengths);
             if !known.contains(&column.as_str()) && !lengths.contains(&column.as_str()) {
                 let all = known.iter().chain(lengths).copied();
-                let near = nearest_name(&column, all).map(|own| format!("; did you mean {own}?"));
+                let near = nearest_name(&column, all)
+                    .map(|nearest_name| format!("; did you mean {nearest_name}?"));
                 faults.push(format!(
                     "{name}: no column \"{stated}\" is known{}",
                     near.unwrap_or_default()
@@ -423,17 +424,17 @@ impl Table {
             columns.push(column);
             units.push(unit.unwrap_or(1.0));
         }
-        for own in known.iter().take(needed).chain(lengths) {
-            if !columns.iter().any(|known| known == own) {
-                let unit = if lengths.contains(own) { "_m" } else { "" };
-                faults.push(format!("{name}: the column {own}{unit} is missing"));
+        for column in known.iter().take(needed).chain(lengths) {
+            if !columns.iter().any(|known| known == column) {
+                let unit = if lengths.contains(column) { "_m" } else { "" };
+                faults.push(format!("{name}: the column {column}{unit} is missing"));
             }
         }
         if !faults.is_empty() {
             return Err(faults.join("\n"));
         }
         let rows: Vec<StringRecord> = reader.records().collect::<Result<_, _>>().map_err(fault)?;
-        for row in rows.iter().filter(|own| own.len() != columns.len()) {
+        for row in rows.iter().filter(|row| row.len() != columns.len()) {
             let line = row.position().map_or(0, csv::Position::line);
             faults.push(format!(
                 "{name}, line {line}: {} cells below {} columns",
@@ -476,12 +477,14 @@ impl Table {
     }
 
     fn at(&self, column: &str) -> Option<usize> {
-        self.columns.iter().position(|own| own == column)
+        self.columns
+            .iter()
+            .position(|candidate| candidate == column)
     }
 
     fn cell<'r>(&self, row: &'r StringRecord, column: &str) -> Option<&'r str> {
         let cell = row.get(self.at(column)?)?;
-        Some(cell).filter(|own| !own.is_empty())
+        Some(cell).filter(|cell| !cell.is_empty())
     }
 
     /// A number of a row within its range, or the usual one where the cell is empty.
@@ -593,7 +596,7 @@ impl Table {
     }
 
     fn drifts(&mut self, row: &StringRecord) -> Option<[f64; 4]> {
-        let found = STATES.map(|own| self.number(row, own, None, 1e-5..=1.0));
+        let found = STATES.map(|state| self.number(row, state, None, 1e-5..=1.0));
         let [Some(a), Some(b), Some(c), Some(d)] = found else {
             return None;
         };
@@ -615,13 +618,13 @@ impl Table {
 /// A column by its name, and the metres of its unit if it is a length.
 fn column_of(stated: &str, lengths: &[&str]) -> (String, Option<f64>) {
     let plain = stated.trim_start_matches('\u{feff}').to_lowercase();
-    for own in lengths {
+    for length in lengths {
         let unit = plain
-            .strip_prefix(own)
+            .strip_prefix(length)
             .and_then(|rest| rest.strip_prefix('_'));
         let metres = LENGTHS.iter().find(|(name, _)| Some(*name) == unit);
         if let Some((_, metres)) = metres {
-            return ((*own).to_owned(), Some(*metres));
+            return ((*length).to_owned(), Some(*metres));
         }
     }
     (plain, None)

@@ -47,7 +47,7 @@ mod tests {
             .map(|id| lognormal(id, 3, "stiffness", 0.25).ln())
             .collect();
         let mean = logs.iter().sum::<f64>() / 2e4;
-        let spread = (logs.iter().map(|own| (own - mean).powi(2)).sum::<f64>() / 2e4).sqrt();
+        let spread = (logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>() / 2e4).sqrt();
         assert!(mean.abs() < 0.006, "{mean}");
         assert!((spread - 0.25).abs() < 0.005, "{spread}");
         assert_ne!(

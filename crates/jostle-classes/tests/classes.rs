@@ -9,26 +9,26 @@ fn period_per_storey(name: &str, level: Level) -> f64 {
     let text = include_str!("data/period_per_storey.csv");
     let row = text
         .lines()
-        .find(|own| own.starts_with(&format!("{name},{},", level.name())));
+        .find(|line| line.starts_with(&format!("{name},{},", level.name())));
     let cell = row
-        .and_then(|own| own.split(',').nth(2))
-        .and_then(|own| own.parse().ok());
+        .and_then(|row| row.split(',').nth(2))
+        .and_then(|split| split.parse().ok());
     cell.expect("a period")
 }
 
 #[test]
 fn capacity_curves_agree_with_the_periods_of_another_table() {
     let mut compared = 0;
-    for own in Types::hazus().classes() {
-        let curve = own.capacity;
+    for class in Types::hazus().classes() {
+        let curve = class.capacity;
         let period =
             2.0 * PI * (curve.yield_displacement / (curve.yield_acceleration * 9.81)).sqrt();
-        let other = period_per_storey(&own.name, own.level) * own.typical_storeys;
+        let other = period_per_storey(&class.name, class.level) * class.typical_storeys;
         assert!(
             (period / other - 1.0).abs() < 0.011,
             "{} {:?}: {period} {other}",
-            own.name,
-            own.level
+            class.name,
+            class.level
         );
         compared += 1;
     }
@@ -57,18 +57,21 @@ fn damage_drifts_agree_with_those_of_shakecast() {
     ];
     let mut compared = 0;
     for (level, family, low) in low_rise {
-        for own in Types::hazus().classes().filter(|own| own.level == level) {
-            let share = match own.name.strip_prefix(family) {
+        for class in Types::hazus()
+            .classes()
+            .filter(|class| class.level == level)
+        {
+            let share = match class.name.strip_prefix(family) {
                 Some("" | "L") => 1.0,
                 Some("M") => 2.0 / 3.0,
                 Some("H") => 0.5,
                 _ => continue,
             };
-            for (a, b) in own.drifts.iter().zip(low) {
+            for (a, b) in class.drifts.iter().zip(low) {
                 assert!(
                     (a - share * b).abs() < 5.1e-4,
                     "{} {level:?}: {a} {}",
-                    own.name,
+                    class.name,
                     share * b
                 );
                 compared += 1;
@@ -99,10 +102,10 @@ fn names_of_hazus_and_gem_lead_to_a_class() {
         ("W/LWAL", 2, "W1"),
         ("MCF/LWAL", 2, "URML"),
     ] {
-        let own = Types::hazus()
+        let class = Types::hazus()
             .of(name, storeys, Level::Low)
             .unwrap_or_else(|problem| panic!("{name}: {problem}"));
-        assert_eq!(&*own.name, wanted, "{name} of {storeys} storeys");
+        assert_eq!(&*class.name, wanted, "{name} of {storeys} storeys");
     }
     for name in ["brick", "C4", "X9/LFM", ""] {
         let problem = Types::hazus().of(name, 2, Level::Low).expect_err(name);

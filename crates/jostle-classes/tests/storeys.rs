@@ -8,7 +8,7 @@ fn table() -> Vec<(String, Vec<f64>)> {
     let row = |line: &str| {
         let mut parts = line.splitn(3, ',');
         let name = format!("{} {}", parts.next()?, parts.next()?);
-        let numbers = parts.next()?.split(',').map(|own| own.parse().ok());
+        let numbers = parts.next()?.split(',').map(|split| split.parse().ok());
         Some((name, numbers.collect::<Option<Vec<f64>>>()?))
     };
     text.lines().filter_map(row).collect()
@@ -29,8 +29,8 @@ fn storeys_equal_those_of_an_independent_program() {
     for (name, strength) in strengths {
         let rows: Vec<_> = table
             .iter()
-            .filter(|own| own.0 == name)
-            .map(|own| &own.1)
+            .filter(|table| table.0 == name)
+            .map(|table| &table.1)
             .collect();
         let first = rows[0];
         let overstrength = first[7] / first[5];
@@ -43,9 +43,9 @@ fn storeys_equal_those_of_an_independent_program() {
             unloading_exponent: first[10],
             damping: first[11],
         };
-        let own = coefficients.building(first[0] as usize, 1000.0 * first[1], 3.0);
-        assert_eq!(own.storeys.len(), rows.len());
-        for (storey, row) in own.storeys.iter().zip(rows) {
+        let building = coefficients.building(first[0] as usize, 1000.0 * first[1], 3.0);
+        assert_eq!(building.storeys.len(), rows.len());
+        for (storey, row) in building.storeys.iter().zip(rows) {
             let force = storey.stiffness * storey.first_corner;
             let found = [
                 storey.mass,
@@ -73,17 +73,17 @@ fn storeys_equal_those_of_an_independent_program() {
 fn a_capacity_curve_gives_the_published_coefficients() {
     // W1, high code: .48 in, .4 g, 11.51 in, 1.2 g; 0.35 s a storey and 0.0870 for one typical storey.
     let inch = 0.0254;
-    let own = Capacity {
+    let capacity = Capacity {
         yield_displacement: 0.48 * inch,
         yield_acceleration: 0.4,
         ultimate_displacement: 11.51 * inch,
         ultimate_acceleration: 1.2,
     };
-    let own = own.coefficients(1.0, 0.8, 0.1, 0.1);
-    assert!((own.period_per_storey / 0.35 - 1.0).abs() < 0.01);
-    assert!((own.hardening / 0.087_035_4 - 1.0).abs() < 1e-4);
-    assert!((own.overstrength - 3.0).abs() < 1e-12);
-    let building = own.building(2, 130.0, 3.2);
+    let coefficients = capacity.coefficients(1.0, 0.8, 0.1, 0.1);
+    assert!((coefficients.period_per_storey / 0.35 - 1.0).abs() < 0.01);
+    assert!((coefficients.hardening / 0.087_035_4 - 1.0).abs() < 1e-4);
+    assert!((coefficients.overstrength - 3.0).abs() < 1e-12);
+    let building = coefficients.building(2, 130.0, 3.2);
     let row = jostle_batch::Row {
         buildings: vec![building],
         gaps: vec![],

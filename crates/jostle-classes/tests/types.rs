@@ -26,13 +26,13 @@ fn types(table: &str, damage: &str) -> Result<Types, String> {
 }
 
 /// First period of a chain of storeys \[s\], by bisection: below its frequency all pivots of K − ω²M are positive.
-fn first_period(own: &Building) -> f64 {
-    let n = own.storeys.len();
+fn first_period(building: &Building) -> f64 {
+    let n = building.storeys.len();
     let stable = |square: f64| {
         let mut pivot = f64::INFINITY;
         (0..n).rev().all(|at| {
-            let (storey, above) = (&own.storeys[at], own.storeys.get(at + 1));
-            let above_stiffness = above.map_or(0.0, |own| own.stiffness);
+            let (storey, above) = (&building.storeys[at], building.storeys.get(at + 1));
+            let above_stiffness = above.map_or(0.0, |above| above.stiffness);
             let coupling = if at + 1 < n {
                 above_stiffness.powi(2) / pivot
             } else {
@@ -56,8 +56,8 @@ fn first_period(own: &Building) -> f64 {
 
 #[test]
 fn the_table_that_is_printed_reads_back_as_the_one_that_is_used() {
-    let own = types(Types::text(), "").expect("types");
-    assert_eq!(own.content(), Types::hazus().content());
+    let table = types(Types::text(), "").expect("types");
+    assert_eq!(table.content(), Types::hazus().content());
     // The same in other units.
     let mut metric =
         format!("{COLUMNS},level,storeys_least,storeys_most,pinching,unloading_exponent,damping\n");
@@ -106,18 +106,28 @@ fn a_type_of_ones_own_has_its_period_strength_and_mass() {
     for level in Level::ALL {
         let class = types.of("rc INFILLED", 4, level).expect("a class");
         assert_eq!((&*class.name, class.level), ("RC infilled", level));
-        let own = class.building(4, 300.0);
+        let building = class.building(4, 300.0);
         let weight = 4.0 * 640.0 * 300.0 * 9.81;
-        assert!((own.storeys.iter().map(|own| own.mass).sum::<f64>() * 9.81 - weight).abs() < 1e-6);
+        assert!(
+            (building
+                .storeys
+                .iter()
+                .map(|building| building.mass)
+                .sum::<f64>()
+                * 9.81
+                - weight)
+                .abs()
+                < 1e-6
+        );
         // T = 2π √(Dy / Ay), to the accuracy of the formula for the first mode of a chain.
         let expected = 2.0 * std::f64::consts::PI * (0.04_f64 / (0.16 * 9.81)).sqrt();
-        let period = first_period(&own);
+        let period = first_period(&building);
         assert!(
             (period / expected - 1.0).abs() < 0.01,
             "{period} {expected}"
         );
         // Strength of the base over the weight: Ay times the share of the first mode.
-        let base = &own.storeys[0];
+        let base = &building.storeys[0];
         let strength = base.stiffness * base.first_corner / weight;
         assert!((0.8 * 0.16..=0.16).contains(&strength), "{strength}");
         // Without hardening the storey goes on at its strength to Du / Dy.
@@ -135,8 +145,8 @@ fn rows_are_found_by_level_and_storeys_and_damage_comes_from_its_table() {
          CR/LFINF,8,0.3,60,0.5,3,3,0.002,0.004,0.01,0.02,,1,16\n"
     );
     let damage = "type,level,slight,moderate,extensive,complete\nC1,low,0.01,0.02,0.03,0.04\ncr/lfinf,,0.011,0.021,0.031,0.041\n";
-    let own = types(&text, damage).expect("types");
-    let of = |kind: &str, storeys, level| own.of(kind, storeys, level);
+    let table = types(&text, damage).expect("types");
+    let of = |kind: &str, storeys, level| table.of(kind, storeys, level);
     assert_eq!(of("C1", 3, Level::Low).unwrap().typical_storeys, 2.0);
     assert_eq!(of("c1", 7, Level::Low).unwrap().typical_storeys, 6.0);
     assert_eq!(of("C1", 14, Level::Low).unwrap().typical_storeys, 6.0);
@@ -159,12 +169,12 @@ fn rows_are_found_by_level_and_storeys_and_damage_comes_from_its_table() {
         "{told}"
     );
     // A type that the table of damage lacks is not given the drifts of the other table.
-    let own = types(
+    let types = types(
         &text,
         "type,slight,moderate,extensive,complete\nW1,0.01,0.02,0.03,0.04\n",
     )
     .unwrap();
-    let told = own.of("C1", 3, Level::Low).expect_err("no damage");
+    let told = types.of("C1", 3, Level::Low).expect_err("no damage");
     assert!(told.contains("damage.csv") && told.contains("C1"), "{told}");
 }
 

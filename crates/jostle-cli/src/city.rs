@@ -146,8 +146,8 @@ pub(crate) fn city(command: &CityCommand) -> Result<(), Failure> {
         CityCommand::Run(args) => run(args),
         CityCommand::Report(args) => report(&args.folder),
         CityCommand::Model(args) => {
-            let own = City::of_folder(&args.folder)?;
-            terminal::print(&own.model(args.pair, args.draw, args.motion)?)
+            let folder = City::of_folder(&args.folder)?;
+            terminal::print(&folder.model(args.pair, args.draw, args.motion)?)
         }
         CityCommand::Types => terminal::print(Types::text()),
         CityCommand::Example(args) => example(args),
@@ -187,8 +187,8 @@ impl InventoryArgs {
 
 /// What footprints hold, for people.
 fn told(found: &Footprints) -> String {
-    let own = &found.inventory;
-    let count = own.buildings.len();
+    let inventory = &found.inventory;
+    let count = inventory.buildings.len();
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -196,35 +196,44 @@ fn told(found: &Footprints) -> String {
         "{}: {} of {} rows",
         styled(BOLD, "Buildings"),
         counted(count, "building"),
-        own.rows
+        inventory.rows
     );
-    let named: Vec<String> = own
+    let named: Vec<String> = inventory
         .columns
         .iter()
         .map(|(attribute, name)| format!("{} from \"{name}\"", attribute.name()))
         .collect();
     let _ = writeln!(text, "  {}", named.join(", "));
     let known = |of: &dyn Fn(&jostle_city::Building) -> bool| {
-        100.0 * own.buildings.iter().filter(|own| of(own)).count() as f64 / count as f64
+        100.0
+            * inventory
+                .buildings
+                .iter()
+                .filter(|building| of(building))
+                .count() as f64
+            / count as f64
     };
     let _ = writeln!(
         text,
         "  storeys of {:.0} %, height of {:.0} %, year of {:.0} %, type of {:.0} % are given",
-        known(&|own| own.storeys.is_some()),
-        known(&|own| own.height.is_some()),
-        known(&|own| own.year.is_some()),
-        known(&|own| own.kind.is_some())
+        known(&|inventory| inventory.storeys.is_some()),
+        known(&|inventory| inventory.height.is_some()),
+        known(&|inventory| inventory.year.is_some()),
+        known(&|inventory| inventory.kind.is_some())
     );
     let mut mends: BTreeMap<&str, usize> = BTreeMap::new();
-    for mend in &own.mends {
+    for mend in &inventory.mends {
         *mends.entry(mend.what).or_default() += 1;
     }
     if !mends.is_empty() {
         let _ = writeln!(text, "{}:", styled(BOLD, "Mends"));
         for (what, count) in mends {
-            let first = own.mends.iter().find(|own| own.what == what);
-            let first = first.map_or_else(String::new, |own| {
-                format!(", such as row {}: {}", own.row, own.detail)
+            let first = inventory
+                .mends
+                .iter()
+                .find(|candidate| candidate.what == what);
+            let first = first.map_or_else(String::new, |mend| {
+                format!(", such as row {}: {}", mend.row, mend.detail)
             });
             let _ = writeln!(text, "  {count} {what}{first}");
         }
@@ -232,7 +241,12 @@ fn told(found: &Footprints) -> String {
     let pairs = &found.neighbours.pairs;
     let blocks = &found.blocks;
     let held = found.with_neighbours();
-    let at = |position: Position| pairs.iter().filter(|own| own.position == position).count();
+    let at = |position: Position| {
+        pairs
+            .iter()
+            .filter(|pair| pair.position == position)
+            .count()
+    };
     let _ = writeln!(
         text,
         "{} within {} m: {}; {:.0} % of the buildings have one",
@@ -243,7 +257,7 @@ fn told(found: &Footprints) -> String {
     );
     let largest = blocks
         .iter()
-        .map(|own| own.buildings.len())
+        .map(|block| block.buildings.len())
         .max()
         .unwrap_or(0);
     let _ = writeln!(
@@ -370,7 +384,7 @@ fn write_report(city: &City, folder: &Path) -> Result<(), Failure> {
     }
     let names: Vec<String> = files
         .iter()
-        .filter_map(|own| Some(own.file_name()?.to_string_lossy().into_owned()))
+        .filter_map(|file| Some(file.file_name()?.to_string_lossy().into_owned()))
         .collect();
     let written = format!("Written to {}: {}\n", folder.display(), names.join(", "));
     terminal::print(&(described(city, &answers) + &written))
@@ -385,23 +399,24 @@ fn runner(models: &[PairModel], folder: &Path) -> Result<Vec<String>, CityError>
     let (Ok(module), false) = (module(None), models.is_empty()) else {
         return Ok(Vec::new());
     };
-    let engine = |own: &PairModel| {
-        let name = format!("pair-{}.toml", own.pair);
-        Engine::from_text(&name, &own.text, Path::new("")).map_err(|error| fault(error.to_string()))
+    let engine = |model: &PairModel| {
+        let name = format!("pair-{}.toml", model.pair);
+        Engine::from_text(&name, &model.text, Path::new(""))
+            .map_err(|error| fault(error.to_string()))
     };
     let engines = models.iter().map(engine).collect::<Result<Vec<_>, _>>()?;
     let page = export_all(&engines, &module).map_err(|error| fault(error.to_string()))?;
     let path = folder.join(RUNNER);
     write_atomically(&path, page.as_bytes()).map_err(|error| fault(error.to_string()))?;
-    let link = |own: &PairModel| format!("{RUNNER}#{}", address(&own.text));
+    let link = |model: &PairModel| format!("{RUNNER}#{}", address(&model.text));
     Ok(models.iter().map(link).collect())
 }
 
 /// What a run found, for people.
 fn described(city: &City, answers: &Answers) -> String {
     let means = answers.means();
-    let [half, middle, twice] = means.struck.map(|own| 100.0 * own);
-    let moderate = means.moderate.map(|own| 100.0 * own);
+    let [half, middle, twice] = means.struck.map(|struck| 100.0 * struck);
+    let moderate = means.moderate.map(|moderate| 100.0 * moderate);
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(

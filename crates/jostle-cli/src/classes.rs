@@ -76,8 +76,8 @@ pub(crate) fn classes(args: &ClassesArgs) -> Result<(), Failure> {
     terminal::warn_all(&results.warnings);
     let left_out = write_classes(&out, &file, &results)?;
     drop(claim);
-    for own in left_out {
-        terminal::remark(&format!("not in fragility.xml and pelicun.csv: {own}"));
+    for left_out in left_out {
+        terminal::remark(&format!("not in fragility.xml and pelicun.csv: {left_out}"));
     }
     let mut text = results.text();
     text += &format!(

@@ -237,7 +237,7 @@ pub(crate) fn table() -> String {
                 text.push_str(" yes |");
                 continue;
             };
-            let known = refusals.iter().position(|own| *own == refusal);
+            let known = refusals.iter().position(|candidate| *candidate == refusal);
             let number = known.unwrap_or_else(|| {
                 refusals.push(refusal);
                 refusals.len() - 1
@@ -282,7 +282,7 @@ fn try_out(kind: usize, feature: &Feature) -> Result<(), String> {
                 cell(
                     &faults
                         .first()
-                        .map_or_else(String::new, |own| own.problem.clone()),
+                        .map_or_else(String::new, |fault| fault.problem.clone()),
                 )
             };
             exported.map(|_| ()).map_err(line)
@@ -292,7 +292,7 @@ fn try_out(kind: usize, feature: &Feature) -> Result<(), String> {
 
 /// A model of two buildings of a kind with a feature.
 fn model(kind: usize, feature: &Feature) -> String {
-    let own = &KINDS[kind];
+    let building_kind = &KINDS[kind];
     let mut text = format!(
         "[motion]\nkind = \"sine\"\namplitude = 2\nperiod = 0.6\nduration = 1\n{}\n[analysis]\n{}",
         feature.motion, feature.analysis
@@ -303,18 +303,18 @@ fn model(kind: usize, feature: &Feature) -> String {
         } else {
             feature.first_storey
         };
-        let heights = match own.name {
+        let heights = match building_kind.name {
             // Its ports say how high its floors are.
             "given" | "given, plan" => String::new(),
             _ => format!("storey_height = [{first:?}, 3.0]\n"),
         };
-        let keys = own
+        let keys = building_kind
             .keys
             .replace("FIRST", &format!("{first:?}"))
             .replace("SECOND", &format!("{:?}", first + 3.0))
             .replace("STIFFNESS", &in_plan_matrix([120e6, 60e6]))
             .replace("MASS", &in_plan_matrix([40e3, 0.0]));
-        let place = match own.in_plan && index == 1 {
+        let place = match building_kind.in_plan && index == 1 {
             true => "at = [10.02, 0]\n",
             false => "",
         };
@@ -325,46 +325,49 @@ fn model(kind: usize, feature: &Feature) -> String {
         };
         let columns = match feature.keys {
             COLUMNS => Some(BY_LINE[kind]),
-            FIBRES => of_fibres(own.name),
+            FIBRES => of_fibres(building_kind.name),
             _ => None,
         };
         let (keys, own_tables) = match columns {
             Some(columns) => (
                 without(&keys),
-                own.tables
+                building_kind
+                    .tables
                     .replace("column = { width = 0.5, depth = 0.5 }\n", columns),
             ),
-            None => (keys, own.tables.to_owned()),
+            None => (keys, building_kind.tables.to_owned()),
         };
         let (more, tables) = match feature.keys {
             // Frames at lines of a plan say it frame by frame.
             OWN_WORDS if YIELDING[kind].is_empty() => (
                 "",
-                own.tables
+                building_kind
+                    .tables
                     .replace("spans", &format!("{}spans", YIELDING[0])),
             ),
-            OWN_WORDS => (YIELDING[kind], own.tables.to_owned()),
+            OWN_WORDS => (YIELDING[kind], building_kind.tables.to_owned()),
             FIBRES if columns.is_none() && YIELDING[kind].is_empty() => (
                 "",
-                own.tables
+                building_kind
+                    .tables
                     .replace("spans", &format!("{HINGES_OF_FIBRES}spans")),
             ),
-            FIBRES if columns.is_none() => (HINGES_OF_FIBRES, own.tables.to_owned()),
-            BARS => ("", own.tables.to_owned()),
+            FIBRES if columns.is_none() => (HINGES_OF_FIBRES, building_kind.tables.to_owned()),
+            BARS => ("", building_kind.tables.to_owned()),
             // Frames at lines of a plan have theirs in their tables.
-            _ if columns.is_some() && own.tables.contains("column =") => ("", own_tables),
+            _ if columns.is_some() && building_kind.tables.contains("column =") => ("", own_tables),
             _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),
-            keys => (keys, own.tables.to_owned()),
+            keys => (keys, building_kind.tables.to_owned()),
         };
         // What stands in frames of a plan belongs to them.
         let parts = ["building.brace", "building.infill", "building.wall"];
         let inside = parts.iter().any(|part| feature.tables.contains(part));
-        let added = match inside && !own.tables.is_empty() {
+        let added = match inside && !building_kind.tables.is_empty() {
             true => feature.tables.replace("building.", "building.frame."),
             false => feature.tables.to_owned(),
         };
         // What stands in bays of a grid says along which lines.
-        let added = match (inside, own.name) {
+        let added = match (inside, building_kind.name) {
             (true, "space-frame") if feature.name == "walls" => WALL_OF_A_GRID.to_owned(),
             (true, "space-frame") if feature.name.starts_with("walls that yield") => {
                 format!("{WALL_OF_A_GRID}hinge = {{ yield = \"2 MN.m\", post_yield = 0.02 }}\n")
@@ -372,19 +375,19 @@ fn model(kind: usize, feature: &Feature) -> String {
             (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
             _ => added,
         };
-        let added = match own.in_plan {
+        let added = match building_kind.in_plan {
             true => added.replace(
                 "floors = [0, 1]\n",
                 "floors = [0, 1]\nat = [[2, 4], [8, 4]]\n",
             ),
             false => added,
         };
-        let own = format!("{heights}{keys}{place}{more}{tables}{added}");
-        let own = match feature.keys {
-            BARS => with_bars(&own),
-            _ => own,
+        let block = format!("{heights}{keys}{place}{more}{tables}{added}");
+        let block = match feature.keys {
+            BARS => with_bars(&block),
+            _ => block,
         };
-        let _ = write!(text, "[[building]]\nname = \"{name}\"\n{own}");
+        let _ = write!(text, "[[building]]\nname = \"{name}\"\n{block}");
     }
     let usual = [
         ("law", "law = \"hertz\"\n"),
@@ -395,7 +398,7 @@ fn model(kind: usize, feature: &Feature) -> String {
         !feature.gap.lines().any(stated) && !feature.gap.starts_with("law = \"restitution\"")
     });
     let usual: String = usual.map(|(_, line)| line).collect();
-    let width = match own.in_plan {
+    let width = match building_kind.in_plan {
         // Plans say how far apart they stand.
         true => "",
         false => "width = 0.02\n",
@@ -404,7 +407,7 @@ fn model(kind: usize, feature: &Feature) -> String {
         text,
         "[[gap]]\nbetween = [\"A\", \"B\"]\n{width}{usual}{}{}",
         feature.gap,
-        match own.in_plan {
+        match building_kind.in_plan {
             // The face of a wall is solid on the right of the way.
             true => {
                 let named = feature.more.replace(
@@ -425,13 +428,13 @@ fn model(kind: usize, feature: &Feature) -> String {
 
 /// Rows of a matrix over x, y and rotation of two floors: one value on the diagonal, and less the other between the floors; those of
 /// rotations are 14 m² times as great.
-fn in_plan_matrix([own, between]: [f64; 2]) -> String {
+fn in_plan_matrix([diagonal, between]: [f64; 2]) -> String {
     let entry = |row: usize, column: usize| {
         let unit = if row % 3 == 2 { 14.0 } else { 1.0 };
         match row.abs_diff(column) {
             // The upper floor stands on one storey.
-            0 if row > 2 => unit * (own - between),
-            0 => unit * own,
+            0 if row > 2 => unit * (diagonal - between),
+            0 => unit * diagonal,
             3 => -unit * between,
             _ => 0.0,
         }

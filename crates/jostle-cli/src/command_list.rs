@@ -15,14 +15,16 @@ pub fn command_list() -> Value {
 }
 
 fn collect(command: &Command, above: &str, list: &mut Vec<Value>) {
-    for own in command.get_subcommands() {
-        let name = format!("{above} {}", own.get_name()).trim().to_owned();
-        if own.has_subcommands() {
-            collect(own, &name, list);
+    for subcommand in command.get_subcommands() {
+        let name = format!("{above} {}", subcommand.get_name())
+            .trim()
+            .to_owned();
+        if subcommand.has_subcommands() {
+            collect(subcommand, &name, list);
             continue;
         }
         let shown = |arg: &&Arg| arg.get_id() != "help";
-        let arguments = own
+        let arguments = subcommand
             .get_arguments()
             .filter(shown)
             .map(|arg| match arg.get_long() {

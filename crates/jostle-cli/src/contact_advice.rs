@@ -113,7 +113,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     let force = FORCE.name();
     for estimate in &advice.estimates {
         let (value, unit) = match Shown::named(estimate.unit) {
-            Some(own) => (own.of(estimate.stiffness), own.name()),
+            Some(shown) => (shown.of(estimate.stiffness), shown.name()),
             None => (estimate.stiffness, estimate.unit),
         };
         let value = format!("{value:.3e} {unit}");

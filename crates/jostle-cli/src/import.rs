@@ -208,13 +208,15 @@ fn write(args: &TableArgs, imported: &Imported) -> Result<String, Failure> {
         let source = imported
             .periods
             .iter()
-            .find(|own| own.name == building.name);
-        let own: Vec<f64> = modes.iter().map(|mode| mode.period()).collect();
-        compare(&mut text, &building.name, &own, source);
+            .find(|period| period.name == building.name);
+        let periods: Vec<f64> = modes.iter().map(|mode| mode.period()).collect();
+        compare(&mut text, &building.name, &periods, source);
     }
     // What is unusual is often a unit.
     let findings = opened.findings(None);
-    let unusual = findings.iter().filter(|own| own.grade >= Grade::Note);
+    let unusual = findings
+        .iter()
+        .filter(|finding| finding.grade >= Grade::Note);
     for finding in unusual {
         let _ = writeln!(text, "{}", finding_with_remedy(finding));
     }
@@ -254,10 +256,10 @@ fn fingerprint(text: &str) -> u64 {
 }
 
 /// Periods of the model beside those of the source: of one direction one by one, else the nearest.
-fn compare(text: &mut String, name: &str, own: &[f64], source: Option<&BuildingPeriods>) {
+fn compare(text: &mut String, name: &str, periods: &[f64], source: Option<&BuildingPeriods>) {
     let _ = writeln!(text, "{}", styled(BOLD, name));
     let Some(source) = source.filter(|source| !source.periods.is_empty()) else {
-        for (index, period) in own.iter().enumerate() {
+        for (index, period) in periods.iter().enumerate() {
             let _ = writeln!(text, "  T{} {period:.4} s", index + 1);
         }
         text.push('\n');
@@ -273,7 +275,7 @@ fn compare(text: &mut String, name: &str, own: &[f64], source: Option<&BuildingP
         source.origin
     );
     let mut most = 0.0_f64;
-    for (index, period) in own.iter().enumerate() {
+    for (index, period) in periods.iter().enumerate() {
         let distance = |other: &&f64| (*other / period).ln().abs();
         let other = match source.of_direction {
             true => source.periods.get(index),

@@ -24,7 +24,7 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
         // Writing to a string cannot fail.
         let _ = describe(&mut text, building, modes);
     }
-    if listed.iter().any(|own| !own.0.is_in_space()) {
+    if listed.iter().any(|mode| !mode.0.is_in_space()) {
         text.push_str("T marks lateral modes (≥ 1 % of the mass). ");
     }
     let _ = writeln!(

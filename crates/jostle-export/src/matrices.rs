@@ -92,7 +92,7 @@ fn has_masses_apart(building: &BuildingSystem) -> bool {
     let floors: Vec<[usize; 3]> = (0..building.floors.len())
         .map(|floor| dofs_in_plan(building, floor))
         .collect();
-    let mut others = (0..mass.len()).filter(|dof| floors.iter().all(|own| !own.contains(dof)));
+    let mut others = (0..mass.len()).filter(|dof| floors.iter().all(|floor| !floor.contains(dof)));
     others.any(|dof| mass[dof] > 0.0) || floors.iter().any(|[x, y, _]| mass[*x] != mass[*y])
 }
 

@@ -96,24 +96,25 @@ pub(crate) fn assemble(
         let Some(joint) = joints.find(support.at) else {
             continue;
         };
-        if floor_of[joint].is_some() && [0, 1, 5].iter().any(|own| support.held[*own]) {
+        if floor_of[joint].is_some() && [0, 1, 5].iter().any(|direction| support.held[*direction]) {
             return refuse(
                 &support.shown,
                 "is held in plan, and its floor has mass: the floor would not move".into(),
                 "give the storeys that the ground holds no diaphragm, and export the masses again",
             );
         }
-        (0..6).for_each(|own| held[joint][own] |= support.held[own]);
+        (0..6).for_each(|direction| held[joint][direction] |= support.held[direction]);
     }
     // What stands on the foot of a wall between two supports is supported as they are.
     for [foot, _] in model.walls.iter().filter_map(edges) {
         let [Some(a), Some(b)] = foot.map(|at| joints.find(at)) else {
             continue;
         };
-        let both: [bool; 6] = std::array::from_fn(|own| held[a][own] && held[b][own]);
+        let both: [bool; 6] =
+            std::array::from_fn(|direction| held[a][direction] && held[b][direction]);
         for joint in 0..joints.at.len() {
             if joints.share(joint, foot).is_some() {
-                (0..6).for_each(|own| held[joint][own] |= both[own]);
+                (0..6).for_each(|direction| held[joint][direction] |= both[direction]);
             }
         }
     }
@@ -139,7 +140,7 @@ pub(crate) fn assemble(
     if let Err(row) = stiffness.factorize(LEAST_PIVOT) {
         let object = match owners[row] {
             Owner::Joint(joint, _) => {
-                let [x, y, z] = joints.at[joint].map(|own| format!("{own:.3}"));
+                let [x, y, z] = joints.at[joint].map(|coordinate| format!("{coordinate:.3}"));
                 format!("the joint at {x}, {y}, {z} m")
             }
             Owner::Floor(floor) => format!("storey \"{}\"", floors[floor].name),
@@ -163,7 +164,7 @@ pub(crate) fn assemble(
             masters
                 .as_flattened()
                 .iter()
-                .map(|own| values[*own])
+                .map(|row| values[*row])
                 .collect(),
         );
     }
@@ -208,7 +209,7 @@ fn pieces(model: &TextModel, joints: &Joints) -> Result<Vec<Piece>, InputError> 
             .collect();
         inside.sort_by(|a, b| a.0.total_cmp(&b.0));
         let all: Vec<usize> = std::iter::once(ends[0])
-            .chain(inside.into_iter().map(|own| own.1))
+            .chain(inside.into_iter().map(|inside| inside.1))
             .chain(std::iter::once(ends[1]))
             .collect();
         for (part, pair) in all.windows(2).enumerate() {
@@ -257,10 +258,15 @@ fn numbered(
     let mut left: Vec<usize> = floors
         .iter()
         .enumerate()
-        .map(|(floor, _)| floor_of.iter().filter(|own| **own == Some(floor)).count())
+        .map(|(floor, _)| {
+            floor_of
+                .iter()
+                .filter(|candidate| **candidate == Some(floor))
+                .count()
+        })
         .collect();
     let mut number_floor = |floor: usize, owners: &mut Vec<Owner>| {
-        masters[floor] = [0, 1, 2].map(|own| owners.len() + own);
+        masters[floor] = [0, 1, 2].map(|offset| owners.len() + offset);
         owners.extend([Owner::Floor(floor); 3]);
     };
     for joint in &order {
@@ -279,8 +285,8 @@ fn numbered(
         }
     }
     // Floors without joints.
-    for (floor, own) in floors.iter().enumerate() {
-        let _ = own;
+    for (floor, storey) in floors.iter().enumerate() {
+        let _ = storey;
         if floor_of.iter().all(|other| *other != Some(floor)) {
             number_floor(floor, &mut owners);
         }
@@ -344,7 +350,7 @@ fn envelope(
     order: usize,
 ) -> Result<Envelope, InputError> {
     let mut firsts: Vec<usize> = (0..order).collect();
-    for (row, column, _) in elements.iter().flat_map(|own| &own.0) {
+    for (row, column, _) in elements.iter().flat_map(|element| &element.0) {
         firsts[*row] = firsts[*row].min(*column);
     }
     let numbers: usize = firsts
@@ -361,7 +367,7 @@ fn envelope(
         ));
     }
     let mut matrix = Envelope::new(firsts);
-    for (row, column, value) in elements.iter().flat_map(|own| &own.0) {
+    for (row, column, value) in elements.iter().flat_map(|element| &element.0) {
         matrix.add(*row, *column, *value);
     }
     Ok(matrix)
@@ -375,7 +381,7 @@ fn remarks(
     order: usize,
 ) -> Vec<String> {
     let count = |what: &dyn Fn(&crate::member::Member) -> bool| {
-        model.members.iter().filter(|own| what(own)).count()
+        model.members.iter().filter(|member| what(member)).count()
     };
     let mut found = vec![format!(
         "elastic, assembled from {} members between {} joints with {order} displacements, of which the floors' are kept",
@@ -391,11 +397,11 @@ fn remarks(
             "{split} times a member is connected to the end of another that lies on it"
         ));
     }
-    let released = count(&|own| own.is_released());
+    let released = count(&|member| member.is_released());
     if released > 0 {
         found.push(format!("{released} members with released ends"));
     }
-    let stiff = count(&|own| own.stiff_ends.iter().any(|end| *end > 0.0));
+    let stiff = count(&|member| member.stiff_ends.iter().any(|end| *end > 0.0));
     if stiff > 0 {
         found.push(format!("{stiff} members with stiff end lengths"));
     }

@@ -28,19 +28,19 @@ impl Beam {
         if length.is_nan() || length <= 1e-3 * distance {
             return None;
         }
-        let axes = axes(along.map(|own| own / distance), self.angle);
+        let axes = axes(along.map(|component| component / distance), self.angle);
         let mut local = flexible(&self.rigidity, length);
-        let sizes: [f64; 12] = std::array::from_fn(|own| local[own][own].sqrt());
+        let sizes: [f64; 12] = std::array::from_fn(|index| local[index][index].sqrt());
         for (end, releases) in self.releases.iter().enumerate() {
-            for place in (0..6).filter(|own| releases[*own]) {
+            for place in (0..6).filter(|index| releases[*index]) {
                 release(&mut local, 6 * end + place);
             }
         }
         // What releases leave by rounding would hold a mechanism.
         for (row, size) in local.iter_mut().zip(sizes) {
-            for (own, other) in row.iter_mut().zip(sizes) {
-                if own.abs() < 1e-12 * size * other {
-                    *own = 0.0;
+            for (row, other) in row.iter_mut().zip(sizes) {
+                if row.abs() < 1e-12 * size * other {
+                    *row = 0.0;
                 }
             }
         }
@@ -63,14 +63,14 @@ impl Beam {
             }
         }
         let mut half = [[0.0; 12]; 12];
-        for (row, own) in half.iter_mut().enumerate() {
-            for (column, value) in own.iter_mut().enumerate() {
+        for (row, half) in half.iter_mut().enumerate() {
+            for (column, value) in half.iter_mut().enumerate() {
                 *value = (0..12).map(|k| local[row][k] * to_ends[k][column]).sum();
             }
         }
         let mut global = [[0.0; 12]; 12];
-        for (row, own) in global.iter_mut().enumerate() {
-            for (column, value) in own.iter_mut().enumerate() {
+        for (row, global) in global.iter_mut().enumerate() {
+            for (column, value) in global.iter_mut().enumerate() {
                 *value = (0..12).map(|k| to_ends[k][row] * half[k][column]).sum();
             }
         }
@@ -79,7 +79,11 @@ impl Beam {
 }
 
 fn norm(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|own| own * own).sum::<f64>().sqrt()
+    vector
+        .iter()
+        .map(|vector| vector * vector)
+        .sum::<f64>()
+        .sqrt()
 }
 
 /// Axes 1, 2 and 3: 2 lies in the vertical plane through 1, along X where 1 is vertical; then both turn about 1.
@@ -94,7 +98,7 @@ fn axes(one: [f64; 3], angle: f64) -> [[f64; 3]; 3] {
     let share: f64 = (0..3).map(|axis| aim[axis] * one[axis]).sum();
     let two = [0, 1, 2].map(|axis| aim[axis] - share * one[axis]);
     let size = norm(two);
-    let two = two.map(|own| own / size);
+    let two = two.map(|component| component / size);
     let cross = |a: [f64; 3], b: [f64; 3]| {
         [
             a[1] * b[2] - a[2] * b[1],
@@ -155,16 +159,16 @@ fn release(matrix: &mut Stiffness, place: usize) {
     let row = matrix[place];
     let pivot = row[place];
     // Rounding of what the other end freed already.
-    if pivot > 1e-9 * row.iter().map(|own| own.abs()).fold(0.0, f64::max) {
-        for (own, factor) in row.iter().enumerate() {
+    if pivot > 1e-9 * row.iter().map(|row| row.abs()).fold(0.0, f64::max) {
+        for (index, factor) in row.iter().enumerate() {
             for other in 0..12 {
-                matrix[own][other] -= factor * row[other] / pivot;
+                matrix[index][other] -= factor * row[other] / pivot;
             }
         }
     }
-    for own in 0..12 {
-        matrix[place][own] = 0.0;
-        matrix[own][place] = 0.0;
+    for index in 0..12 {
+        matrix[place][index] = 0.0;
+        matrix[index][place] = 0.0;
     }
 }
 
@@ -189,19 +193,23 @@ mod tests {
         let k = beam.stiffness().unwrap();
         let mut rows: Vec<Vec<f64>> = (6..12)
             .map(|row| {
-                let mut own = k[row][6..].to_vec();
-                own.push(if row == 6 + place { 1e3 } else { 0.0 });
-                own
+                let mut stiffness = k[row][6..].to_vec();
+                stiffness.push(if row == 6 + place { 1e3 } else { 0.0 });
+                stiffness
             })
             .collect();
         for i in 0..6 {
             let pivot = rows[i].clone();
-            for (j, row) in rows.iter_mut().enumerate().filter(|own| own.0 != i) {
+            for (j, row) in rows
+                .iter_mut()
+                .enumerate()
+                .filter(|candidate| candidate.0 != i)
+            {
                 let factor = row[i] / pivot[i];
                 let _ = j;
                 row.iter_mut()
                     .zip(&pivot)
-                    .for_each(|(own, pivot)| *own -= factor * pivot);
+                    .for_each(|(row, pivot)| *row -= factor * pivot);
             }
         }
         [0, 1, 2, 3, 4, 5].map(|row| rows[row][6] / rows[row][row])
@@ -238,32 +246,32 @@ mod tests {
     #[test]
     fn stiff_lengths_and_releases() {
         let (length, arm, force) = (4.0_f64, 1.0, 1e3);
-        let mut own = beam([[0.0; 3], [length + arm, 0.0, 0.0]]);
+        let mut cantilever = beam([[0.0; 3], [length + arm, 0.0, 0.0]]);
         let (bend, shear) = (2e8, 1e9);
-        own.stiff_ends = [arm, 0.0];
+        cantilever.stiff_ends = [arm, 0.0];
         let foot = force * (length.powi(3) / (3.0 * bend) + length / shear);
-        assert!((tip(&own, 2)[2] / foot - 1.0).abs() < 1e-11);
-        own.stiff_ends = [0.0, arm];
+        assert!((tip(&cantilever, 2)[2] / foot - 1.0).abs() < 1e-11);
+        cantilever.stiff_ends = [0.0, arm];
         let (l, a) = (length, arm);
         let end =
             force * (l.powi(3) / (3.0 * bend) + l / shear + a * l * l / bend + a * a * l / bend);
-        assert!((tip(&own, 2)[2] / end - 1.0).abs() < 1e-11);
+        assert!((tip(&cantilever, 2)[2] / end - 1.0).abs() < 1e-11);
         // Hinged at its foot, it has no stiffness against a force at its tip.
-        own = beam(own.ends);
-        own.releases[0][5] = true;
-        let k = own.stiffness().unwrap();
+        cantilever = beam(cantilever.ends);
+        cantilever.releases[0][5] = true;
+        let k = cantilever.stiffness().unwrap();
         let l = length + arm;
         let moved: f64 = k[8][8] - k[8][10] * k[10][8] / k[10][10];
         assert!(moved.abs() < 1e-9 * k[8][8]);
         // Hinged at both ends, only its length counts.
-        own.releases = [
+        cantilever.releases = [
             [false, false, false, true, true, true],
             [false, false, false, false, true, true],
         ];
-        let k = own.stiffness().unwrap();
+        let k = cantilever.stiffness().unwrap();
         assert!((k[0][0] * l / 3e9 - 1.0).abs() < 1e-12);
-        assert!((1..6).all(|place| k[place].iter().all(|own| own.abs() < 1e-6)));
-        own.stiff_ends = [3.0, 3.0];
-        assert!(own.stiffness().is_none());
+        assert!((1..6).all(|place| k[place].iter().all(|value| value.abs() < 1e-6)));
+        cantilever.stiff_ends = [3.0, 3.0];
+        assert!(cantilever.stiffness().is_none());
     }
 }

@@ -200,31 +200,31 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         }
     }
     for record in of("MATERIAL PROPERTIES") {
-        let own = model
+        let materials = model
             .materials
             .entry(record.at(1).to_owned())
             .or_insert([f64::NAN, 0.2]);
         if let Some(modulus) = record.number("E") {
-            *own = [modulus * pressure, record.number("U").unwrap_or(0.2)];
+            *materials = [modulus * pressure, record.number("U").unwrap_or(0.2)];
         }
     }
     for record in of("FRAME SECTIONS") {
-        let own = model.sections.entry(record.at(1).to_owned()).or_default();
+        let sections = model.sections.entry(record.at(1).to_owned()).or_default();
         if let Some(shape) = record.value("SHAPE") {
-            own.shape = shape.to_owned();
-            own.material = record.value("MATERIAL").unwrap_or("").to_owned();
+            sections.shape = shape.to_owned();
+            sections.material = record.value("MATERIAL").unwrap_or("").to_owned();
             let size = |name: &str| record.number(name).map(|size| size * length);
-            own.size = ["D", "B"].map(size);
-            own.plates = ["TF", "TW"].map(size);
+            sections.size = ["D", "B"].map(size);
+            sections.plates = ["TF", "TW"].map(size);
         }
-        for (index, (stated, name)) in own.stated.iter_mut().zip(NUMBERS).enumerate() {
+        for (index, (stated, name)) in sections.stated.iter_mut().zip(NUMBERS).enumerate() {
             let power = if index < 3 { 2 } else { 4 };
             *stated = record
                 .number(name)
                 .map(|number| number * length.powi(power))
                 .or(*stated);
         }
-        for (factor, name) in own.factors.iter_mut().zip(FACTORS) {
+        for (factor, name) in sections.factors.iter_mut().zip(FACTORS) {
             *factor = record.number(name).unwrap_or(*factor);
         }
     }
@@ -283,7 +283,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             .and_then(|lower| Some([place(line.at(3), lower)?, place(line.at(4), level)?]));
         let ends = ends.ok_or_else(|| lost(line, "points or storeys"))?;
         let kind = line.at(2).to_lowercase();
-        let own = members
+        let members = members
             .entry((record.at(1).to_owned(), level))
             .or_insert_with(|| {
                 let shown = format!("{kind} \"{}\" of storey \"{}\"", record.at(1), record.at(2));
@@ -296,45 +296,53 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         }
         // Further lines of one member add keys.
         if let Some(section) = record.value("SECTION") {
-            section.clone_into(&mut own.section);
+            section.clone_into(&mut members.section);
         }
-        own.angle = record.number("ANG").unwrap_or(own.angle);
+        members.angle = record.number("ANG").unwrap_or(members.angle);
         for word in record.value("RELEASE").unwrap_or("").split_whitespace() {
             let (what, end) = word.split_at(word.len() - 1);
-            let place = Member::RELEASES.iter().position(|own| *own == what);
-            let (Some(place), Some(end)) = (place, ["I", "J"].iter().position(|own| *own == end))
-            else {
+            let place = Member::RELEASES
+                .iter()
+                .position(|candidate| *candidate == what);
+            let (Some(place), Some(end)) = (
+                place,
+                ["I", "J"].iter().position(|candidate| *candidate == end),
+            ) else {
                 return Err(fault(
                     file,
-                    own.shown.clone(),
+                    members.shown.clone(),
                     format!("has the release \"{word}\", which is not known"),
                     "releases are PI, V2I, V3I, TI, M2I, M3I, and the same with J",
                 ));
             };
-            own.releases[end][place] = true;
+            members.releases[end][place] = true;
         }
         // The part of the end lengths that does not bend; none unless it is stated.
         let rigid = record.number("RIGIDZONE").unwrap_or(0.0);
-        for (end, name) in own.stiff_ends.iter_mut().zip(["LENGTHOFFI", "LENGTHOFFJ"]) {
+        for (end, name) in members
+            .stiff_ends
+            .iter_mut()
+            .zip(["LENGTHOFFI", "LENGTHOFFJ"])
+        {
             *end = record
                 .number(name)
                 .map_or(*end, |offset| offset * length * rigid);
         }
-        own.moved |= ["OFFSETXI", "OFFSETYI", "OFFSETXJ", "OFFSETYJ"]
+        members.moved |= ["OFFSETXI", "OFFSETYI", "OFFSETXJ", "OFFSETYJ"]
             .iter()
-            .any(|name| record.number(name).is_some_and(|own| own != 0.0));
+            .any(|name| record.number(name).is_some_and(|number| number != 0.0));
     }
     for record in of("WALL PROPERTIES") {
-        let own = model
+        let wall_properties = model
             .wall_properties
             .entry(record.at(1).to_owned())
             .or_default();
         if let Some(material) = record.value("MATERIAL") {
-            material.clone_into(&mut own.material);
+            material.clone_into(&mut wall_properties.material);
         }
-        let thickness = record.number("WALLTHICKNESS").map(|own| own * length);
-        own.thickness = thickness.or(own.thickness);
-        for (factor, name) in own
+        let thickness = record.number("WALLTHICKNESS").map(|number| number * length);
+        wall_properties.thickness = thickness.or(wall_properties.thickness);
+        for (factor, name) in wall_properties
             .factors
             .iter_mut()
             .zip(["F22MOD", "F12MOD", "M22MOD", "M12MOD"])
@@ -416,7 +424,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             model.disconnected.extend(at);
         }
         if let (Some(held), Some(at)) = (record.value("RESTRAINT"), at) {
-            let held = HELD.map(|own| held.split_whitespace().any(|word| word == own));
+            let held = HELD.map(|direction| held.split_whitespace().any(|word| word == direction));
             model.supports.push(Support { shown, at, held });
         }
     }
@@ -452,7 +460,7 @@ fn units<'a>(
     let mut found: Option<Units> = None;
     for record in controls.filter(|record| record.at(0) == "UNITS") {
         let [force, length] = [record.at(1), record.at(2)];
-        let own = Units::new(force, length).ok_or_else(|| {
+        let units = Units::new(force, length).ok_or_else(|| {
             fault(
                 file,
                 format!("line {}, UNITS", record.line),
@@ -460,7 +468,7 @@ fn units<'a>(
                 "export the model in N, kN, kgf, tonf, lb or kip with m, cm, mm, ft or in",
             )
         })?;
-        if found.is_some_and(|other| other != own) {
+        if found.is_some_and(|other| other != units) {
             return Err(fault(
                 file,
                 format!("line {}, UNITS", record.line),
@@ -468,7 +476,7 @@ fn units<'a>(
                 "export the model again: it is not clear which units hold",
             ));
         }
-        found = Some(own);
+        found = Some(units);
     }
     found.ok_or_else(|| {
         fault(

@@ -14,9 +14,13 @@ impl Element {
     pub(crate) fn new(rows: [Shares; 12], stiffness: &Stiffness) -> Self {
         let mut entries = Vec::new();
         for (row, values) in rows.iter().zip(stiffness) {
-            for (column, value) in rows.iter().zip(values).filter(|own| *own.1 != 0.0) {
+            for (column, value) in rows
+                .iter()
+                .zip(values)
+                .filter(|candidate| *candidate.1 != 0.0)
+            {
                 for (i, a) in row {
-                    let below = column.iter().filter(|own| own.0 <= *i);
+                    let below = column.iter().filter(|column| column.0 <= *i);
                     entries.extend(below.map(|(j, b)| (*i, *j, a * b * value)));
                 }
             }
@@ -28,7 +32,7 @@ impl Element {
     pub(crate) fn spring(row: Shares, stiffness: f64) -> Self {
         let mut entries = Vec::new();
         for (i, a) in &row {
-            let below = row.iter().filter(|own| own.0 <= *i);
+            let below = row.iter().filter(|row| row.0 <= *i);
             entries.extend(below.map(|(j, b)| (*i, *j, a * b * stiffness)));
         }
         Self(entries)

@@ -289,8 +289,8 @@ impl Facts {
 
     /// Convex outline of the joints of a storey, else of all joints.
     pub(crate) fn outline(&self, story: &str) -> Option<Vec<Point>> {
-        let own = self.points.get(&key(story)).map(|points| hull(points));
-        own.filter(|own| own.len() > 2).or_else(|| {
+        let outline = self.points.get(&key(story)).map(|points| hull(points));
+        outline.filter(|hull| hull.len() > 2).or_else(|| {
             let all: Vec<Point> = self.points.values().flatten().copied().collect();
             Some(hull(&all)).filter(|hull| hull.len() > 2)
         })

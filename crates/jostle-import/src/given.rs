@@ -141,9 +141,9 @@ pub(crate) fn assembled(
     Ok(match axis {
         None => in_space(facts, &floors, &found.flexibility, found.remarks)?,
         Some(axis) => {
-            let own = |matrix: &[f64]| matrix.iter().skip(axis).step_by(3).copied().collect();
+            let matrix_of = |matrix: &[f64]| matrix.iter().skip(axis).step_by(3).copied().collect();
             let rows = found.flexibility.iter().skip(axis).step_by(3);
-            let matrix: Vec<Vec<f64>> = rows.map(|row| own(row)).collect();
+            let matrix: Vec<Vec<f64>> = rows.map(|row| matrix_of(row)).collect();
             in_plane(facts, &floors, &matrix, axis, found.remarks)
         }
     })
@@ -156,8 +156,13 @@ pub(crate) fn assembled(
 pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
     let floors = facts.floors()?;
     let cases = unit_cases(facts, options)?;
-    let in_both = options.direction.is_none_or(|own| own == Direction::Both);
-    let has_modes = facts.displacements.iter().any(|own| own.step.is_some());
+    let in_both = options
+        .direction
+        .is_none_or(|direction| direction == Direction::Both);
+    let has_modes = facts
+        .displacements
+        .iter()
+        .any(|displacement| displacement.step.is_some());
     let by_modes_alone = options.way.is_none() && cases.is_empty() && has_modes;
     if in_both && (options.way == Some(Way::Modes) || by_modes_alone) {
         if let Some(lacks) = floors.iter().find_map(|floor| floor_lacks(facts, floor)) {
@@ -217,7 +222,7 @@ pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built,
     let complete = floors
         .iter()
         .all(|floor| cases.contains_key(&(key(&floor.name), axis)));
-    let wants = |way: Way| options.way.is_none_or(|own| own == way);
+    let wants = |way: Way| options.way.is_none_or(|choice| choice == way);
     if wants(Way::Flexibility) && complete {
         let mut remarks = Vec::new();
         let matrix = flexibility(facts, &floors, &cases, &[axis], &mut remarks)?;
@@ -250,9 +255,9 @@ fn unit_cases(facts: &Facts, options: &ImportOptions) -> Result<Cases, InputErro
     for (index, load) in facts.unit_loads.iter().enumerate() {
         loads.entry(&load.case).or_default().push(index);
     }
-    for (case, own) in loads {
+    for (case, indices) in loads {
         // Cases with several loads are no unit loads.
-        if let [index] = own[..] {
+        if let [index] = indices[..] {
             let load = &facts.unit_loads[index];
             found.insert((key(&load.story), load.component), (key(case), load.size));
         }
@@ -261,12 +266,12 @@ fn unit_cases(facts: &Facts, options: &ImportOptions) -> Result<Cases, InputErro
     let cases: BTreeSet<&str> = facts
         .displacements
         .iter()
-        .map(|own| own.case.as_str())
+        .map(|displacement| displacement.case.as_str())
         .collect();
     for case in cases {
         for (component, start) in ["fx", "fy", "mz"].into_iter().enumerate() {
-            let own = plain(case);
-            let Some(rest) = own.strip_prefix(start) else {
+            let case_name = plain(case);
+            let Some(rest) = case_name.strip_prefix(start) else {
                 continue;
             };
             let Some(story) = facts
@@ -299,9 +304,14 @@ fn unit_cases(facts: &Facts, options: &ImportOptions) -> Result<Cases, InputErro
 
 /// Displacement of a floor in a case without steps.
 fn response(facts: &Facts, case: &str, story: &str) -> Option<[f64; 3]> {
-    let own =
-        |own: &&crate::facts::Displacement| key(&own.case) == case && key(&own.story) == key(story);
-    facts.displacements.iter().find(own).map(|own| own.by)
+    let matching = |displacement: &&crate::facts::Displacement| {
+        key(&displacement.case) == case && key(&displacement.story) == key(story)
+    };
+    facts
+        .displacements
+        .iter()
+        .find(matching)
+        .map(|displacement| displacement.by)
 }
 
 /// What a model in space lacks, and what helps.
@@ -536,12 +546,12 @@ struct Shape {
 /// Modes whose shape is known at every floor, longest period first.
 fn shapes(facts: &Facts, floors: &[Floor]) -> Vec<Shape> {
     let mut found: Vec<Shape> = Vec::new();
-    for own in facts.periods.iter().filter(|own| own.period > 0.0) {
+    for period in facts.periods.iter().filter(|period| period.period > 0.0) {
         let of_floor = |floor: &Floor| {
             let is = |row: &&crate::facts::Displacement| {
-                row.step == Some(own.mode)
+                row.step == Some(period.mode)
                     && key(&row.story) == key(&floor.name)
-                    && (own.case.is_empty() || key(&row.case) == key(&own.case))
+                    && (period.case.is_empty() || key(&row.case) == key(&period.case))
             };
             facts.displacements.iter().find(is).map(|row| row.by)
         };
@@ -555,8 +565,8 @@ fn shapes(facts: &Facts, floors: &[Floor]) -> Vec<Shape> {
             shape.iter().zip(floors).map(energy).sum()
         });
         found.push(Shape {
-            mode: own.mode,
-            period: own.period,
+            mode: period.mode,
+            period: period.period,
             shape,
             energies,
         });
@@ -579,7 +589,7 @@ fn by_modes_in_space(
     remarks: &mut Vec<String>,
 ) -> Result<Option<Vec<Vec<f64>>>, InputError> {
     let mut modes = shapes(facts, floors);
-    modes.retain(|own| own.energies.iter().sum::<f64>() > 0.0);
+    modes.retain(|mode| mode.energies.iter().sum::<f64>() > 0.0);
     modes.truncate(3 * floors.len());
     let table = "Diaphragm Center Of Mass Displacements of modes";
     let more = "let the modal case find more modes, three for every floor if it can, and select it for output";
@@ -588,9 +598,9 @@ fn by_modes_in_space(
     }
     let mass: Vec<f64> = floors.iter().flat_map(mass_of).collect();
     let mut shapes: Vec<Vec<f64>> = Vec::new();
-    for own in &modes {
-        let size = own.energies.iter().sum::<f64>().sqrt();
-        let shape: Vec<f64> = own
+    for mode in &modes {
+        let size = mode.energies.iter().sum::<f64>().sqrt();
+        let shape: Vec<f64> = mode
             .shape
             .as_flattened()
             .iter()
@@ -599,7 +609,7 @@ fn by_modes_in_space(
         for (other, before) in shapes.iter().zip(&modes) {
             let shared: f64 = (0..mass.len()).map(|i| shape[i] * mass[i] * other[i]).sum();
             if shared.abs() > ORTHOGONAL {
-                return Err(facts.fault(table, format!("modes {} and {} are not orthogonal with the floor masses (their product is {shared:.3}): storeys without mass or semi-rigid floors carry mass that the floors do not have", before.mode, own.mode), "model it by unit loads: export displacements under a unit force along X, along Y and a unit moment on every diaphragm"));
+                return Err(facts.fault(table, format!("modes {} and {} are not orthogonal with the floor masses (their product is {shared:.3}): storeys without mass or semi-rigid floors carry mass that the floors do not have", before.mode, mode.mode), "model it by unit loads: export displacements under a unit force along X, along Y and a unit moment on every diaphragm"));
             }
         }
         shapes.push(shape);
@@ -607,13 +617,14 @@ fn by_modes_in_space(
     let count = floors.len();
     let mut left = Vec::new();
     for component in 0..3 {
-        let is_most = |own: &&Shape| {
-            own.energies
+        let is_most = |shape: &&Shape| {
+            shape
+                .energies
                 .iter()
-                .all(|other| *other <= own.energies[component])
+                .all(|other| *other <= shape.energies[component])
         };
-        let own: Vec<&Shape> = modes.iter().filter(is_most).collect();
-        let Some(last) = own.last() else {
+        let modes: Vec<&Shape> = modes.iter().filter(is_most).collect();
+        let Some(last) = modes.last() else {
             return Err(facts.fault(
                 table,
                 format!(
@@ -623,11 +634,11 @@ fn by_modes_in_space(
                 more,
             ));
         };
-        if own.len() < count {
-            left.push(remainder_period(last.period, own.len(), count));
+        if modes.len() < count {
+            left.push(remainder_period(last.period, modes.len(), count));
         }
     }
-    let square = left.iter().map(|own| own * own).sum::<f64>() / left.len().max(1) as f64;
+    let square = left.iter().map(|period| period * period).sum::<f64>() / left.len().max(1) as f64;
     let flexible = |period_squared: f64| period_squared / (4.0 * PI * PI);
     let n = mass.len();
     let matrix = (0..n).map(|i| {
@@ -637,7 +648,7 @@ fn by_modes_in_space(
                     modes
                         .iter()
                         .zip(&shapes)
-                        .map(|(own, shape)| weight(own) * shape[i] * shape[j])
+                        .map(|(mode, shape)| weight(mode) * shape[i] * shape[j])
                         .sum()
                 };
                 let rest = match i == j {
@@ -649,7 +660,7 @@ fn by_modes_in_space(
                 } else {
                     0.0
                 };
-                of_modes(&|own| flexible(own.period * own.period)) + rest
+                of_modes(&|mode| flexible(mode.period * mode.period)) + rest
             })
             .collect()
     });
@@ -682,17 +693,17 @@ fn by_modes(
     let mut remarks = vec![PLANE.to_owned()];
     let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
     let mut least_share = 1.0_f64;
-    for own in shapes(facts, floors) {
-        let all: f64 = own.energies.iter().sum();
-        let share = own.energies[axis] / all;
+    for shape in shapes(facts, floors) {
+        let all: f64 = shape.energies.iter().sum();
+        let share = shape.energies[axis] / all;
         if !(all > 0.0 && share > 0.5) {
             continue;
         }
         least_share = least_share.min(share);
         found.push((
-            own.mode,
-            own.period,
-            own.shape.iter().map(|by| by[axis]).collect(),
+            shape.mode,
+            shape.period,
+            shape.shape.iter().map(|by| by[axis]).collect(),
         ));
     }
     if found.is_empty() {
@@ -732,8 +743,10 @@ fn by_modes(
     );
     let _ = writeln!(block, "shapes = [");
     for (mode, _, shape) in &found {
-        let most = shape.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
-        let shape: Vec<String> = shape.iter().map(|own| digits(own / most)).collect();
+        let most = shape
+            .iter()
+            .fold(0.0_f64, |most, shape| most.max(shape.abs()));
+        let shape: Vec<String> = shape.iter().map(|shape| digits(shape / most)).collect();
         let _ = writeln!(block, "  [{}], # mode {mode}", shape.join(", "));
     }
     block.push_str("]\n");
@@ -744,11 +757,11 @@ fn by_modes(
         Some((index, response(facts, case, &floor.name)?[axis] / size))
     });
     match struck.filter(|_| found.len() < floors.len()) {
-        Some((index, own)) => {
+        Some((index, flexibility)) => {
             let _ = writeln!(
                 block,
                 "contact_flexibility = \"{} m/N\"   # under a unit load there\ncontact_floor = {}",
-                digits(own),
+                digits(flexibility),
                 index + 1
             );
             remarks.push(format!(
@@ -780,15 +793,15 @@ fn by_stiffness(
     let cases: BTreeSet<&str> = facts
         .stiffness
         .iter()
-        .filter(|own| own.stiffness[axis] > 0.0)
-        .map(|own| own.case.as_str())
+        .filter(|stiffness| stiffness.stiffness[axis] > 0.0)
+        .map(|stiffness| stiffness.case.as_str())
         .collect();
     let case = match (wanted, &cases.iter().collect::<Vec<_>>()[..]) {
         (_, []) => return Ok(None),
-        (Some(wanted), _) if cases.iter().any(|own| key(own) == key(wanted)) => wanted,
+        (Some(wanted), _) if cases.iter().any(|case| key(case) == key(wanted)) => wanted,
         (None, [one]) => **one,
         (_, several) => {
-            let several: Vec<&str> = several.iter().map(|own| **own).collect();
+            let several: Vec<&str> = several.iter().map(|several| **several).collect();
             return Err(facts.fault(
                 "table Story Stiffness",
                 format!("depends on the load case; there are {}", several.join(", ")),
@@ -804,12 +817,12 @@ fn by_stiffness(
     let mut flexibility = 0.0;
     let mut floor = floors.iter().peekable();
     for story in &facts.stories {
-        let is = |own: &&crate::facts::StoryStiffness| {
-            key(&own.case) == key(case)
-                && own.stiffness[axis] > 0.0
-                && key(&own.story) == key(&story.name)
+        let is = |stiffness: &&crate::facts::StoryStiffness| {
+            key(&stiffness.case) == key(case)
+                && stiffness.stiffness[axis] > 0.0
+                && key(&stiffness.story) == key(&story.name)
         };
-        let Some(own) = facts.stiffness.iter().find(is) else {
+        let Some(stiffness) = facts.stiffness.iter().find(is) else {
             return Err(facts.fault(
                 format!(
                     "table Story Stiffness, case \"{case}\", storey \"{}\"",
@@ -820,7 +833,7 @@ fn by_stiffness(
             ));
         };
         // Storeys without mass stand in series with those above.
-        flexibility += 1.0 / own.stiffness[axis];
+        flexibility += 1.0 / stiffness.stiffness[axis];
         if floor
             .next_if(|floor| key(&floor.name) == key(&story.name))
             .is_some()

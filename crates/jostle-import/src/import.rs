@@ -71,7 +71,7 @@ enum Kind {
 fn kind(program: Program, file: &SourceFile<'_>) -> Result<Kind, InputError> {
     let extension = Path::new(file.name)
         .extension()
-        .map(|own| own.to_string_lossy().to_lowercase());
+        .map(|extension| extension.to_string_lossy().to_lowercase());
     match (program, extension.as_deref().unwrap_or("")) {
         (_, "xlsx" | "xlsm") => Ok(Kind::Workbook),
         (Program::Etabs, "e2k" | "$et") | (Program::Sap2000, "s2k" | "$2k") => Ok(Kind::Model),
@@ -108,7 +108,7 @@ fn kind(program: Program, file: &SourceFile<'_>) -> Result<Kind, InputError> {
 fn stem(name: &str) -> String {
     let name = Path::new(name)
         .file_name()
-        .map(|own| own.to_string_lossy().into_owned())
+        .map(|file_name| file_name.to_string_lossy().into_owned())
         .unwrap_or_default();
     name.split('.').next().unwrap_or("").trim().to_owned()
 }
@@ -126,17 +126,17 @@ pub fn import(
     for file in files {
         sorted.push((kind(program, file)?, file));
     }
-    sorted.sort_by_key(|own| own.0);
+    sorted.sort_by_key(|entry| entry.0);
     let mut names: Vec<String> = Vec::new();
     let principal = |kind: Kind| kind == Kind::Model || kind == Kind::Workbook;
     for file in files {
-        let own = stem(file.name);
+        let stem = stem(file.name);
         if sorted
             .iter()
             .any(|(kind, other)| principal(*kind) && other.name == file.name)
-            && !names.contains(&own)
+            && !names.contains(&stem)
         {
-            names.push(own);
+            names.push(stem);
         }
     }
     let units = match &options.units {
@@ -159,8 +159,16 @@ pub fn import(
         ));
     }
     // Tables and text of one building may have different names.
-    let tables_of_one = sorted.iter().filter(|own| own.0 == Kind::Workbook).count() <= 1
-        && sorted.iter().filter(|own| own.0 == Kind::Model).count() <= 1;
+    let tables_of_one = sorted
+        .iter()
+        .filter(|candidate| candidate.0 == Kind::Workbook)
+        .count()
+        <= 1
+        && sorted
+            .iter()
+            .filter(|candidate| candidate.0 == Kind::Model)
+            .count()
+            <= 1;
     if tables_of_one {
         names.truncate(1);
     }
@@ -183,7 +191,7 @@ pub fn import(
     let mut blocks = String::new();
     let mut spaces = Vec::new();
     for name in &names {
-        let own: Vec<_> = sorted
+        let group: Vec<_> = sorted
             .iter()
             .filter(|(_, file)| names.len() == 1 || stem(file.name) == *name)
             .collect();
@@ -192,7 +200,7 @@ pub fn import(
             sap2000: program == Program::Sap2000,
             ..Facts::default()
         };
-        for (kind, file) in own {
+        for (kind, file) in group {
             gather(program, *kind, file, units, options, &mut facts)?;
         }
         facts.complete_stories();
@@ -287,19 +295,20 @@ fn gather(
 
 /// Puts the digits of the `.LOG` into the periods of tables, if both are of one analysis.
 fn refine_periods(facts: &mut Facts) {
-    let near =
-        |own: &crate::facts::ModePeriod, solver: f64| (own.period / solver - 1.0).abs() < 0.01;
+    let near = |period: &crate::facts::ModePeriod, solver: f64| {
+        (period.period / solver - 1.0).abs() < 0.01
+    };
     let solver = facts.solver_periods.clone();
-    let other = facts.periods.iter().find(|own| {
+    let other = facts.periods.iter().find(|period| {
         solver
-            .get(&own.mode)
-            .is_some_and(|solver| !near(own, *solver))
+            .get(&period.mode)
+            .is_some_and(|solver| !near(period, *solver))
     });
     match other {
-        Some(own) => facts.left_out.push(format!("the .LOG file: its period of mode {} is not that of the tables, so it is of another analysis", own.mode)),
+        Some(period) => facts.left_out.push(format!("the .LOG file: its period of mode {} is not that of the tables, so it is of another analysis", period.mode)),
         None => {
-            for own in &mut facts.periods {
-                own.period = solver.get(&own.mode).copied().unwrap_or(own.period);
+            for period in &mut facts.periods {
+                period.period = solver.get(&period.mode).copied().unwrap_or(period.period);
             }
         }
     }
@@ -398,16 +407,17 @@ fn add(
     imported.remarks.extend(built.remarks.iter().map(named));
     imported.left_out.extend(facts.left_out.iter().cloned());
     // Modes with most of their mass in this direction, where mass ratios say so.
-    let of_direction = !built.in_space && facts.periods.iter().any(|own| own.shares.is_some());
-    let periods = facts.periods.iter().filter(|own| {
-        let shares = own.shares.unwrap_or_default();
-        own.period > 0.0
+    let of_direction =
+        !built.in_space && facts.periods.iter().any(|period| period.shares.is_some());
+    let periods = facts.periods.iter().filter(|period| {
+        let shares = period.shares.unwrap_or_default();
+        period.period > 0.0
             && (!of_direction || (shares[axis] > shares[1 - axis] && shares[axis] >= 0.01))
     });
     imported.periods.push(BuildingPeriods {
         name: facts.name.clone(),
         origin: facts.periods_from.clone(),
-        periods: periods.map(|own| own.period).collect(),
+        periods: periods.map(|period| period.period).collect(),
         of_direction: of_direction || built.in_space,
     });
     if facts.periods.is_empty() {

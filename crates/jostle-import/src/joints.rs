@@ -14,12 +14,12 @@ pub(crate) struct Joints {
 
 impl Joints {
     fn cell(at: [f64; 3]) -> [i64; 3] {
-        at.map(|own| (own / (2.0 * ONE_JOINT)).floor() as i64)
+        at.map(|coordinate| (coordinate / (2.0 * ONE_JOINT)).floor() as i64)
     }
 
     pub(crate) fn find(&self, at: [f64; 3]) -> Option<usize> {
         let [x, y, z] = Self::cell(at);
-        let beside = |own: i64| own.saturating_sub(1)..=own.saturating_add(1);
+        let beside = |index: i64| index.saturating_sub(1)..=index.saturating_add(1);
         let cells =
             beside(x).flat_map(|x| beside(y).flat_map(move |y| beside(z).map(move |z| [x, y, z])));
         let near = |joint: &&usize| distance(self.at[**joint], at) < ONE_JOINT;
@@ -43,7 +43,7 @@ impl Joints {
     pub(crate) fn share(&self, joint: usize, [a, b]: [[f64; 3]; 2]) -> Option<f64> {
         let at = self.at[joint];
         let line = [0, 1, 2].map(|axis| b[axis] - a[axis]);
-        let square: f64 = line.iter().map(|own| own * own).sum();
+        let square: f64 = line.iter().map(|line| line * line).sum();
         let along: f64 = (0..3).map(|axis| (at[axis] - a[axis]) * line[axis]).sum();
         let share = along / square;
         let foot = [0, 1, 2].map(|axis| a[axis] + share * line[axis]);

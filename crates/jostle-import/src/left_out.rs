@@ -59,9 +59,9 @@ pub(crate) fn lines(file: &str, what: &str, names: &BTreeSet<&str>) -> Vec<Strin
     let mut found: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for name in names {
         let fits = |words: &[&str]| words.iter().any(|word| name.contains(word));
-        let meaning = MEANINGS.iter().find(|own| fits(own.0));
+        let meaning = MEANINGS.iter().find(|meaning| fits(meaning.0));
         found
-            .entry(meaning.map_or("not known to jostle", |own| own.1))
+            .entry(meaning.map_or("not known to jostle", |meaning| meaning.1))
             .or_default()
             .push(name);
     }

@@ -50,7 +50,10 @@ pub(crate) fn read_log(file: &str, text: &str, facts: &mut Facts) {
     facts
         .read
         .push(format!("{file}: periods of {} modes", found.len()));
-    facts.solver_periods = found.iter().map(|own| (own.mode, own.period)).collect();
+    facts.solver_periods = found
+        .iter()
+        .map(|period| (period.mode, period.period))
+        .collect();
     if facts.periods.is_empty() {
         facts.periods = found;
         facts.periods_from = file.to_owned();
@@ -76,8 +79,8 @@ pub(crate) fn read_out(
         if let Some((before, _)) = line.split_once(", CONSTR = RIGID") {
             name = before.trim().to_owned();
         } else if line.contains("TRANSLATIONAL MASS AND MASS MOMENTS") {
-            let own = lines.nth(1).map(values).unwrap_or_default();
-            let [u1, _, _, _, _, r3] = own[..] else {
+            let numbers = lines.nth(1).map(values).unwrap_or_default();
+            let [u1, _, _, _, _, r3] = numbers[..] else {
                 continue;
             };
             (mass, inertia) = (u1, r3);
@@ -85,8 +88,8 @@ pub(crate) fn read_out(
             lines.next();
             let mut place = [f64::NAN; 3];
             for axis in &mut place {
-                let own = lines.next().map(values).unwrap_or_default();
-                *axis = own.first().copied().unwrap_or(f64::NAN);
+                let numbers = lines.next().map(values).unwrap_or_default();
+                *axis = numbers.first().copied().unwrap_or(f64::NAN);
             }
             if mass > 0.0 && place.iter().all(|axis| axis.is_finite()) {
                 found.push((std::mem::take(&mut name), mass, inertia, place));

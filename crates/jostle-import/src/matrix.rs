@@ -32,43 +32,47 @@ impl Envelope {
     pub(crate) fn factorize(&mut self, least: f64) -> Result<(), usize> {
         for row in 0..self.rows.len() {
             let first = self.firsts[row];
-            let (done, own) = self.rows.split_at_mut(row);
-            let own = &mut own[0];
-            let diagonal = own[row - first];
+            let (done, remaining) = self.rows.split_at_mut(row);
+            let entries = &mut remaining[0];
+            let diagonal = entries[row - first];
             for column in first..row {
                 let shared = first.max(self.firsts[column]);
                 let above = &done[column][shared - self.firsts[column]..];
                 let (pivot, above) = above.split_last().unwrap_or((&1.0, &[]));
-                let below = &own[shared - first..column - first];
+                let below = &entries[shared - first..column - first];
                 let sum: f64 = below.iter().zip(above).map(|(a, b)| a * b).sum();
-                own[column - first] = (own[column - first] - sum) / pivot;
+                entries[column - first] = (entries[column - first] - sum) / pivot;
             }
-            let rest = diagonal - own[..row - first].iter().map(|own| own * own).sum::<f64>();
+            let rest = diagonal
+                - entries[..row - first]
+                    .iter()
+                    .map(|entry| entry * entry)
+                    .sum::<f64>();
             if !(rest > least * diagonal && rest.is_finite()) {
                 return Err(row);
             }
-            own[row - first] = rest.sqrt();
+            entries[row - first] = rest.sqrt();
         }
         Ok(())
     }
 
     /// Solves with the factor, in place.
     pub(crate) fn solve(&self, values: &mut [f64]) {
-        for (row, (own, first)) in self.rows.iter().zip(&self.firsts).enumerate() {
-            let sum: f64 = own
+        for (row, (entries, first)) in self.rows.iter().zip(&self.firsts).enumerate() {
+            let sum: f64 = entries
                 .iter()
                 .zip(&values[*first..row])
                 .map(|(a, b)| a * b)
                 .sum();
-            values[row] = (values[row] - sum) / own[row - first];
+            values[row] = (values[row] - sum) / entries[row - first];
         }
-        for (row, (own, first)) in self.rows.iter().zip(&self.firsts).enumerate().rev() {
-            values[row] /= own[row - first];
+        for (row, (entries, first)) in self.rows.iter().zip(&self.firsts).enumerate().rev() {
+            values[row] /= entries[row - first];
             let value = values[row];
             values[*first..row]
                 .iter_mut()
-                .zip(own)
-                .for_each(|(other, own)| *other -= own * value);
+                .zip(entries)
+                .for_each(|(other, one)| *other -= one * value);
         }
     }
 }
@@ -76,8 +80,8 @@ impl Envelope {
 /// Whether a symmetric matrix is positive definite.
 pub(crate) fn positive_definite(matrix: &[Vec<f64>]) -> bool {
     let mut envelope = Envelope::new(vec![0; matrix.len()]);
-    for (row, own) in matrix.iter().enumerate() {
-        (0..=row).for_each(|column| envelope.add(row, column, own[column]));
+    for (row, matrix) in matrix.iter().enumerate() {
+        (0..=row).for_each(|column| envelope.add(row, column, matrix[column]));
     }
     envelope.factorize(0.0).is_ok()
 }

@@ -163,7 +163,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         of("JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED")
             .map(|row| format!("joint {}", get(row, "Joint"))),
     );
-    let supported: Vec<f64> = model.supports.iter().map(|own| own.at[2]).collect();
+    let supported: Vec<f64> = model.supports.iter().map(|support| support.at[2]).collect();
     let lowest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(f64::INFINITY, f64::min);
     let base = match supported.is_empty() {
         true => lowest(&mut joints.values().map(|at| at[2])),
@@ -213,9 +213,11 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 "export the whole model",
             ));
         };
-        let own = assigned.get(&frame);
+        let assignment = assigned.get(&frame);
         let mut member = Member::new(format!("frame {frame}"), [a, b]);
-        member.section = own.map(|row| get(row, "AnalSect")).unwrap_or_default();
+        member.section = assignment
+            .map(|row| get(row, "AnalSect"))
+            .unwrap_or_default();
         member.angle = turned
             .get(&frame)
             .and_then(|row| value(row, "Angle"))
@@ -240,19 +242,21 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             match lengths {
                 // Found from the sizes of members that meet: not in the file.
                 _ if row.get("Type") == Some(&"Automatic") => member.moved = rigid != 0.0,
-                _ => member.stiff_ends = lengths.map(|own| own.unwrap_or(0.0) * length * rigid),
+                _ => {
+                    member.stiff_ends = lengths.map(|offset| offset.unwrap_or(0.0) * length * rigid)
+                }
             }
         }
         model.members.push(member);
     }
     for row in of("AREA SECTION PROPERTIES") {
-        let own = WallFacts {
+        let facts = WallFacts {
             material: get(row, "Material"),
-            thickness: value(row, "Thickness").map(|own| own * length),
+            thickness: value(row, "Thickness").map(|thickness| thickness * length),
             factors: ["F22Mod", "F12Mod", "M22Mod", "M12Mod"]
                 .map(|name| value(row, name).unwrap_or(1.0)),
         };
-        model.wall_properties.insert(get(row, "Section"), own);
+        model.wall_properties.insert(get(row, "Section"), facts);
     }
     let of_area: BTreeMap<String, String> = of("AREA SECTION ASSIGNMENTS")
         .map(|row| (get(row, "Area"), get(row, "Section")))
@@ -369,22 +373,22 @@ fn added_masses<'a>(
             .iter()
             .position(|story| (story.top - at[2]).abs() < ONE_LEVEL);
         if let Some(level) = level {
-            let own = (
+            let mass_and_inertia = (
                 mass * units.factor(MASS),
                 value("MMI3").unwrap_or(0.0) * units.factor(INERTIA),
             );
-            of_level[level].push(([at[0], at[1]], own.0, own.1));
+            of_level[level].push(([at[0], at[1]], mass_and_inertia.0, mass_and_inertia.1));
         }
     }
     for (story, masses) in facts.stories.iter().zip(of_level) {
-        let mass: f64 = masses.iter().map(|own| own.1).sum();
+        let mass: f64 = masses.iter().map(|mass| mass.1).sum();
         if mass <= 0.0 {
             continue;
         }
         let centre =
-            [0, 1].map(|axis| masses.iter().map(|own| own.0[axis] * own.1).sum::<f64>() / mass);
-        let inertia = masses.iter().map(|(at, mass, own)| {
-            own + mass * ((at[0] - centre[0]).powi(2) + (at[1] - centre[1]).powi(2))
+            [0, 1].map(|axis| masses.iter().map(|mass| mass.0[axis] * mass.1).sum::<f64>() / mass);
+        let inertia = masses.iter().map(|(at, mass, polar)| {
+            polar + mass * ((at[0] - centre[0]).powi(2) + (at[1] - centre[1]).powi(2))
         });
         facts.masses.push(FloorMass {
             story: Ok(story.name.clone()),

@@ -31,7 +31,7 @@ pub(crate) fn rigidity(member: &Member, model: &TextModel) -> Result<Rigidity, L
         .materials
         .get(&section.material)
         .copied()
-        .filter(|own| own[0] > 0.0)
+        .filter(|material| material[0] > 0.0)
     else {
         return Err((
             format!(
@@ -44,7 +44,7 @@ pub(crate) fn rigidity(member: &Member, model: &TextModel) -> Result<Rigidity, L
     let numbers = numbers(name, section)?;
     let shear = modulus / (2.0 * (1.0 + poisson));
     let moduli = [modulus, shear, shear, shear, modulus, modulus];
-    Ok([0, 1, 2, 3, 4, 5].map(|own| moduli[own] * section.factors[own] * numbers[own]))
+    Ok([0, 1, 2, 3, 4, 5].map(|index| moduli[index] * section.factors[index] * numbers[index]))
 }
 
 /// The six numbers of a section.
@@ -53,10 +53,10 @@ fn numbers(name: &str, section: &SectionFacts) -> Result<[f64; 6], Lack> {
     let by_shape = by_size(section).or_else(|| Profile::named(shape).as_ref().map(of_profile));
     let by_shape = by_shape.or_else(|| Profile::named(name).as_ref().map(of_profile));
     let mut found = [0.0; 6];
-    for (own, value) in found.iter_mut().enumerate() {
-        let number = section.stated[own].or_else(|| by_shape.map(|numbers| numbers[own]));
+    for (index, value) in found.iter_mut().enumerate() {
+        let number = section.stated[index].or_else(|| by_shape.map(|numbers| numbers[index]));
         // No shear area: no deformation by shear.
-        let number = number.or((own == 1 || own == 2).then_some(0.0));
+        let number = number.or((index == 1 || index == 2).then_some(0.0));
         *value = number.filter(|number| *number >= 0.0).ok_or_else(|| match shape {
             _ if shape.contains("Auto Select") => (
                 format!("has the auto-select list \"{name}\": its section is chosen in design"),
@@ -189,26 +189,29 @@ mod tests {
     /// Thin plates, and the profiles of the catalogue without their fillets.
     #[test]
     fn shapes_against_profiles_and_thin_walls() {
-        let own = section("Steel I/Wide Flange", [0.3, 0.15], [0.0107, 0.0071]);
-        let numbers = numbers("anything", &own).unwrap();
+        let profile = section("Steel I/Wide Flange", [0.3, 0.15], [0.0107, 0.0071]);
+        let numbers = numbers("anything", &profile).unwrap();
         let ipe300 = numbers_of("IPE300");
         // IPE 300: 53.8 cm², 8356 and 604 cm⁴ with fillets.
-        for (own, table) in [(0, 53.8e-4), (5, 8356e-8), (4, 604e-8)] {
-            assert!((ipe300[own] / table - 1.0).abs() < 0.005, "{own}");
-            assert!((numbers[own] / ipe300[own] - 1.0).abs() < 0.05, "{own}");
+        for (index, table) in [(0, 53.8e-4), (5, 8356e-8), (4, 604e-8)] {
+            assert!((ipe300[index] / table - 1.0).abs() < 0.005, "{index}");
+            assert!(
+                (numbers[index] / ipe300[index] - 1.0).abs() < 0.05,
+                "{index}"
+            );
         }
         // A square tube of thin walls: 4 a t, 2/3 a³ t, torsion a³ t, with a between middles.
         let (a, t) = (0.2, 1e-5);
         let tube = by_size(&section("Steel Tube", [a + t, a + t], [t, t])).unwrap();
-        for (own, value) in [
+        for (index, value) in [
             (0, 4.0 * a * t),
             (3, a.powi(3) * t),
             (4, 2.0 / 3.0 * a.powi(3) * t),
         ] {
             assert!(
-                (tube[own] / value - 1.0).abs() < 1e-3,
-                "{own}: {}",
-                tube[own]
+                (tube[index] / value - 1.0).abs() < 1e-3,
+                "{index}: {}",
+                tube[index]
             );
         }
         let pipe = by_size(&section("Steel Pipe", [0.2, 0.0], [0.0, 0.1])).unwrap();
@@ -236,11 +239,11 @@ mod tests {
     /// The numbers of the file count more than those of its shape.
     #[test]
     fn stated_numbers_hold() {
-        let mut own = section("General", [0.3, 0.3], [0.0, 0.0]);
-        assert!(numbers("G", &own).is_err());
-        own.stated = [Some(0.01), None, None, Some(1e-6), Some(2e-6), Some(3e-6)];
+        let mut section = section("General", [0.3, 0.3], [0.0, 0.0]);
+        assert!(numbers("G", &section).is_err());
+        section.stated = [Some(0.01), None, None, Some(1e-6), Some(2e-6), Some(3e-6)];
         assert_eq!(
-            numbers("G", &own).unwrap(),
+            numbers("G", &section).unwrap(),
             [0.01, 0.0, 0.0, 1e-6, 2e-6, 3e-6]
         );
         let w14 = numbers_of("W14X90");

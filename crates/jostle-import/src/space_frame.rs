@@ -50,8 +50,11 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
             ),
         );
     }
-    let loose = model.supports.iter().find(|own| own.held != [true; 6]);
-    if let Some(foot) = loose.map(|own| &own.shown).or(model.on_springs.first()) {
+    let loose = model
+        .supports
+        .iter()
+        .find(|support| support.held != [true; 6]);
+    if let Some(foot) = loose.map(|loose| &loose.shown).or(model.on_springs.first()) {
         return refuse(foot, "is not fixed; columns of a space frame are".into());
     }
     if model.members.is_empty() {
@@ -71,7 +74,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     }
     let mut levels = vec![facts.base_height()];
     levels.extend(facts.stories.iter().map(|story| story.top));
-    let level_of = |z: f64| levels.iter().position(|own| (own - z).abs() < ONE_LINE);
+    let level_of = |z: f64| levels.iter().position(|level| (level - z).abs() < ONE_LINE);
     let lines = [0, 1].map(|axis| {
         lines(
             model
@@ -91,7 +94,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     let line_of = |axis: usize, at: f64| {
         lines[axis]
             .iter()
-            .position(|own| (own - at).abs() <= 2.0 * ONE_LINE)
+            .position(|line| (line - at).abs() <= 2.0 * ONE_LINE)
     };
     let mut places: [Places; 3] = Default::default();
     let mut seen = Sections::default();
@@ -140,7 +143,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
         let entry = seen.entry(kind, member, size, model)?;
         for place in pieces {
             if places[kind]
-                .insert(place.map(|own| own + 1), entry.clone())
+                .insert(place.map(|place| place + 1), entry.clone())
                 .is_some()
             {
                 return refuse(shown, "lies where another member is".into());
@@ -156,7 +159,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     let lengths = model
         .members
         .iter()
-        .any(|own| own.stiff_ends.iter().any(|end| *end != 0.0));
+        .any(|member| member.stiff_ends.iter().any(|end| *end != 0.0));
     if lengths {
         facts.left_out.push(format!("{}: stiff end lengths of members: those of a space frame bend from joint to joint, so that periods are longer; --by members takes them", model.file));
     }
@@ -227,13 +230,13 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
             .all(|point| lies_in(&outlines[ends[0][2] - 1], *point))
     };
     let shape = [lines[0].len(), lines[1].len(), floors.len()];
-    for (name, own, less) in [
+    for (name, occupied, less) in [
         ("column", &places[0], [0, 0, 0]),
         ("beam_x", &places[1], [1, 0, 0]),
         ("beam_y", &places[2], [0, 1, 0]),
     ] {
         let count = [0, 1, 2].map(|axis| shape[axis] - less[axis].min(shape[axis]));
-        write_members(&mut block, name, own, count, &missing);
+        write_members(&mut block, name, occupied, count, &missing);
     }
     remarks.push(format!(
         "{} columns, {} and {} pieces of beams along X and Y on {} by {} lines",
@@ -268,7 +271,9 @@ fn member_kind(member: &Member) -> Option<usize> {
 fn lines(mut at: Vec<f64>) -> Vec<f64> {
     at.sort_by(f64::total_cmp);
     let together = at.chunk_by(|a, b| b - a <= ONE_LINE);
-    together.map(|own| own[(own.len() - 1) / 2]).collect()
+    together
+        .map(|together| together[(together.len() - 1) / 2])
+        .collect()
 }
 
 /// What the members have in common.
@@ -349,7 +354,7 @@ impl Sections {
         let material = model
             .materials
             .get(&section.material)
-            .filter(|own| own[0] > 0.0);
+            .filter(|material| material[0] > 0.0);
         let Some([modulus, poisson]) = material.copied() else {
             return refuse(format!(
                 "has the material \"{}\", which has no modulus of elasticity",
@@ -499,10 +504,10 @@ fn write_members(
     };
     let _ = writeln!(block, "\n[[building.{name}]]\n{}", common.0);
     for (entry, places) in kinds.iter().filter(|kind| *kind.0 != Some(common)) {
-        for own in boxes(places) {
+        for region in boxes(places) {
             let _ = writeln!(block, "\n[[building.{name}]]");
             for ((key, [first, last]), count) in
-                ["x", "y", "storeys"].into_iter().zip(own).zip(count)
+                ["x", "y", "storeys"].into_iter().zip(region).zip(count)
             {
                 let _ = match () {
                     () if first == 1 && last == count => Ok(()),
@@ -519,22 +524,24 @@ fn write_members(
 fn boxes(places: &[Place]) -> Vec<Box> {
     let mut found: Vec<Box> = places
         .iter()
-        .map(|place| place.map(|own| [own, own]))
+        .map(|place| place.map(|place| [place, place]))
         .collect();
     for axis in [2, 1, 0] {
-        let others = |own: &Box| {
-            let mut own = *own;
-            own[axis] = [0, 0];
-            own
+        let others = |region: &Box| {
+            let mut region = *region;
+            region[axis] = [0, 0];
+            region
         };
-        found.sort_by_key(|own| (others(own), own[axis]));
+        found.sort_by_key(|region| (others(region), region[axis]));
         let mut merged: Vec<Box> = Vec::new();
-        for own in found {
+        for region in found {
             match merged.last_mut() {
-                Some(last) if others(last) == others(&own) && last[axis][1] + 1 == own[axis][0] => {
-                    last[axis][1] = own[axis][1];
+                Some(last)
+                    if others(last) == others(&region) && last[axis][1] + 1 == region[axis][0] =>
+                {
+                    last[axis][1] = region[axis][1];
                 }
-                _ => merged.push(own),
+                _ => merged.push(region),
             }
         }
         found = merged;

@@ -26,7 +26,7 @@ impl Reading<'_> {
                 .table
                 .columns
                 .iter()
-                .map(|own| own.0.as_str())
+                .map(|column| column.0.as_str())
                 .collect();
             fault(
                 self.file,
@@ -209,7 +209,7 @@ pub(crate) fn gather(
         return Ok(false);
     };
     let reading = Reading { file, table, units };
-    let wanted = |found: &str| diaphragm.is_none_or(|own| key(own) == key(found));
+    let wanted = |found: &str| diaphragm.is_none_or(|diaphragm| key(diaphragm) == key(found));
     let story = table.column(STORY);
     match kind {
         Kind::Stories => stories(&reading, facts)?,
@@ -245,7 +245,7 @@ pub(crate) fn gather(
             if let [Some(x), Some(y)] = centre {
                 numbers.extend([(x, LENGTH), (y, LENGTH)]);
             }
-            facts.masses.retain(|own| !own.diaphragm.is_empty());
+            facts.masses.retain(|mass| !mass.diaphragm.is_empty());
             reading.each(&[story, of], &numbers, |texts, values| {
                 if wanted(texts[1]) {
                     let last = values.len();
@@ -295,8 +295,10 @@ pub(crate) fn gather(
                 });
             })?;
             // Those with mass ratios say more.
-            if facts.periods.is_empty() || facts.periods.iter().all(|own| own.shares.is_none()) {
-                let shares = found.iter().any(|own| own.shares.is_some());
+            if facts.periods.is_empty()
+                || facts.periods.iter().all(|period| period.shares.is_none())
+            {
+                let shares = found.iter().any(|period| period.shares.is_some());
                 if facts.periods.is_empty() || shares {
                     facts.periods = found;
                     facts.periods_from = format!("{file}, {}", table.name);
@@ -324,7 +326,10 @@ pub(crate) fn gather(
                 reading.needed(&["fy"])?,
                 reading.needed(&["mz"])?,
             ];
-            let numbers: Vec<_> = columns.into_iter().zip(numbers.map(|own| own.1)).collect();
+            let numbers: Vec<_> = columns
+                .into_iter()
+                .zip(numbers.map(|number| number.1))
+                .collect();
             reading.each(
                 &[table.column(&["loadpattern", "name"]), story],
                 &numbers,
@@ -352,11 +357,11 @@ pub(crate) fn gather(
                 let [x, y, z] = values[..] else { return };
                 facts.points.entry(key(texts[0])).or_default().push([x, y]);
                 let name = || (texts[0].to_owned(), z);
-                let own = facts
+                let joint_heights = facts
                     .joint_heights
                     .entry(key(texts[0]))
                     .or_insert_with(name);
-                own.1 = own.1.max(z);
+                joint_heights.1 = joint_heights.1.max(z);
             })?;
         }
     }
@@ -377,7 +382,7 @@ fn stories(reading: &Reading<'_>, facts: &mut Facts) -> Result<(), InputError> {
     let name = table.column(&["name", "story", "storyname"]);
     reading.each(&[name, tower], &numbers, |texts, values| {
         found.push((texts[0].to_owned(), values[0]));
-        if !towers.iter().any(|own| own == texts[1]) {
+        if !towers.iter().any(|tower| tower == texts[1]) {
             towers.push(texts[1].to_owned());
         }
     })?;

@@ -86,8 +86,8 @@ pub(crate) fn parse(text: &str) -> Option<(f64, Size)> {
             let (name, power) = split_power(word)?;
             let (unit, of_unit) = base(name)?;
             factor *= unit.powi(sign * power);
-            for (own, more) in size.iter_mut().zip(of_unit) {
-                *own += sign * power * more;
+            for (size, more) in size.iter_mut().zip(of_unit) {
+                *size += sign * power * more;
             }
         }
     }

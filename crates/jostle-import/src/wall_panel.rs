@@ -31,11 +31,11 @@ pub(crate) struct Panel {
 /// A panel that is no upright rectangle.
 pub(crate) fn panels(model: &TextModel, joints: &mut Joints) -> Result<Vec<Panel>, InputError> {
     let mut whole = Vec::new();
-    for (wall, own) in model.walls.iter().enumerate() {
-        let Some([foot, head]) = edges(own) else {
+    for (wall, model_wall) in model.walls.iter().enumerate() {
+        let Some([foot, head]) = edges(model_wall) else {
             return Err(fault(
                 &model.file,
-                own.shown.clone(),
+                model_wall.shown.clone(),
                 "is no upright rectangle",
                 "divide it into rectangles in the source, or take the stiffness from results: unit loads on every diaphragm",
             ));
@@ -67,7 +67,7 @@ pub(crate) fn panels(model: &TextModel, joints: &mut Joints) -> Result<Vec<Panel
             }
         }
     }
-    done.sort_by_key(|own| (own.wall, own.foot, own.head));
+    done.sort_by_key(|panel| (panel.wall, panel.foot, panel.head));
     Ok(done)
 }
 
@@ -139,7 +139,7 @@ impl Panel {
         };
         let facts = model.wall_properties.get(&wall.property);
         let Some((facts, thickness)) =
-            facts.and_then(|own| Some((own, own.thickness.filter(|t| *t > 0.0)?)))
+            facts.and_then(|fact| Some((fact, fact.thickness.filter(|t| *t > 0.0)?)))
         else {
             return lacks(format!(
                 "has the property \"{}\", of which the file has no thickness",
@@ -149,7 +149,7 @@ impl Panel {
         let material = model
             .materials
             .get(&facts.material)
-            .filter(|own| own[0] > 0.0);
+            .filter(|material| material[0] > 0.0);
         let Some([modulus, poisson]) = material.copied() else {
             return lacks(format!(
                 "has the material \"{}\", which has no modulus of elasticity",
@@ -199,7 +199,7 @@ impl Panel {
         elements.extend(
             beam(left, in_plane)
                 .stiffness()
-                .map(|own| Element::new(rows, &own)),
+                .map(|stiffness| Element::new(rows, &stiffness)),
         );
         // Across the wall, strips at its edges bend, as wide as a member that meets them engages.
         let strip = (0.5 * length).min(STRIP * thickness);
@@ -208,7 +208,10 @@ impl Panel {
             let pair = [self.foot[side], self.head[side]];
             let rows = std::array::from_fn(|row| shares[pair[row / 6]][row % 6].clone());
             let half = beam(joints.at[pair[0]], [0.0, 0.0, 0.0, 0.0, weak, 0.0]);
-            elements.extend(half.stiffness().map(|own| Element::new(rows, &own)));
+            elements.extend(
+                half.stiffness()
+                    .map(|stiffness| Element::new(rows, &stiffness)),
+            );
         }
         // A beam that meets a corner is clamped, by a spring as stiff as the panel.
         let clamp = 4.0 * bend / height;

@@ -34,7 +34,11 @@ pub(crate) struct Table {
 impl Table {
     /// The column with one of these names.
     pub(crate) fn column(&self, names: &[&str]) -> Option<usize> {
-        let of = |name: &&str| self.columns.iter().position(|(own, _)| own == name);
+        let of = |name: &&str| {
+            self.columns
+                .iter()
+                .position(|(candidate, _)| candidate == name)
+        };
         names.iter().find_map(of)
     }
 

@@ -41,7 +41,10 @@ pub fn check_reference() -> String {
             page,
             "\n## {title}\n\n| check | name | compared | limits | source | remedy |\n|---|---|---|---|---|---|\n"
         );
-        for check in CHECKS.iter().filter(|own| own.is_of_model() == of_model) {
+        for check in CHECKS
+            .iter()
+            .filter(|candidate| candidate.is_of_model() == of_model)
+        {
             let _ = writeln!(
                 page,
                 "| {} | `{}` | {} | {} | {} | {} |",

@@ -108,9 +108,9 @@ impl CityFile {
         let warnings = reader.take_warnings();
         let error = reader.into_error();
         match read {
-            Some(mut own) if error.faults.is_empty() => {
-                own.warnings = warnings;
-                Ok(own)
+            Some(mut root) if error.faults.is_empty() => {
+                root.warnings = warnings;
+                Ok(root)
             }
             _ => Err(error),
         }
@@ -258,9 +258,9 @@ fn inventory(reader: &mut Reader<'_>, view: &View<'_>, folder: &Path) -> Option<
         .unwrap_or(false);
     let named = reader.table(&view, "columns", &[Section::CityColumns]);
     let mut columns = Vec::new();
-    for own in COLUMNS {
-        if let Some(name) = text(reader, named.as_ref(), own) {
-            columns.push((own, name));
+    for column in COLUMNS {
+        if let Some(name) = text(reader, named.as_ref(), column) {
+            columns.push((column, name));
         }
     }
     let reach = reader.get(&view, "reach");
@@ -344,13 +344,13 @@ mod tests {
         let text = "[inventory]\nfile = \"a.geojson\"\n[motion]\nrecord = \"el-centro-1940-ns\"\n";
         let parse =
             |text: &str| CityFile::parse("city.toml", text, Format::Toml, Path::new("there"));
-        let own = parse(text).expect("a city");
-        assert_eq!(own.inventory, Path::new("there/a.geojson"));
+        let city = parse(text).expect("a city");
+        assert_eq!(city.inventory, Path::new("there/a.geojson"));
         assert_eq!(
-            (own.gap_median, own.gap_is_given, own.draws),
+            (city.gap_median, city.gap_is_given, city.draws),
             (0.025, false, 25)
         );
-        assert_eq!(own.level, CityLevel::ByYear(None));
+        assert_eq!(city.level, CityLevel::ByYear(None));
         let error = parse("[inventory]\nfil = \"a\"\n[gap]\nmedian = \"-3 mm\"\nparty_wall = 2\n")
             .expect_err("faults");
         let error = error.to_string();

@@ -89,7 +89,10 @@ pub(crate) fn read(
     if let Some((_, file)) = grid {
         reader.open(field, SECTIONS);
         let entries = field.named_entries().unwrap_or_default();
-        for (key, other) in entries.iter().filter(|own| !OF_GRID.contains(&own.0)) {
+        for (key, other) in entries
+            .iter()
+            .filter(|named_entry| !OF_GRID.contains(&named_entry.0))
+        {
             *reader.bad(
                 other,
                 "does not go with grid, whose points have their own motions",
@@ -138,7 +141,7 @@ pub(crate) fn read(
             return None;
         }
         (None, None, sites) => {
-            let alone = [sites.map(|own| own.0), choose, reach];
+            let alone = [sites.map(|site| site.0), choose, reach];
             for field in alone.into_iter().flatten() {
                 *reader.bad(&field, "needs intensities of places") =
                     Some("add shakemap = \"grid.xml\", or gmf and sites, or remove it".into());

@@ -134,9 +134,9 @@ impl ClassesFile {
         let warnings = reader.take_warnings();
         let error = reader.into_error();
         match read {
-            Some(mut own) if error.faults.is_empty() => {
-                own.warnings = warnings;
-                Ok(own)
+            Some(mut root) if error.faults.is_empty() => {
+                root.warnings = warnings;
+                Ok(root)
             }
             _ => Err(error),
         }
@@ -254,8 +254,11 @@ fn read_root(
         class: class?,
         neighbour: neighbour?,
         gaps: gaps?,
-        half_storey_up: up?.iter().map(|own| *own == ALIGNMENTS[1]).collect(),
-        in_the_middle: middle?.iter().map(|own| *own == POSITIONS[1]).collect(),
+        half_storey_up: up?.iter().map(|up| *up == ALIGNMENTS[1]).collect(),
+        in_the_middle: middle?
+            .iter()
+            .map(|middle| *middle == POSITIONS[1])
+            .collect(),
         area: area?,
         contact_stiffness: stiffness?,
         restitution: restitution?,
@@ -263,7 +266,7 @@ fn read_root(
         motion: motion?,
         measure: ClassesMeasure::ALL
             .into_iter()
-            .find(|own| own.name() == measure)?,
+            .find(|candidate| candidate.name() == measure)?,
         levels: levels?,
         draws: draws?,
         scatter: [scatter[0]?, scatter[1]?, scatter[2]?],
@@ -277,19 +280,19 @@ fn read_root(
 
 /// `[class]` or `[neighbour]`.
 fn side(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Option<ClassesSide> {
-    let own = reader.table(view, key, &[Section::ClassesSide])?;
-    let types = match reader.get(&own, "types") {
+    let table = reader.table(view, key, &[Section::ClassesSide])?;
+    let types = match reader.get(&table, "types") {
         None => {
-            reader.missing(&own, "types", "add types = [\"C1\"]");
+            reader.missing(&table, "types", "add types = [\"C1\"]");
             None
         }
         Some(field) => list(reader, &field, "[\"C1\", \"URM\"]", |reader, field| {
             reader.text(field)
         }),
     };
-    let storeys = match reader.get(&own, "storeys") {
+    let storeys = match reader.get(&table, "storeys") {
         None => {
-            reader.missing(&own, "storeys", "add storeys = [3]");
+            reader.missing(&table, "storeys", "add storeys = [3]");
             None
         }
         Some(field) => list(reader, &field, "[2, 4, 6]", |reader, field| {
@@ -301,7 +304,7 @@ fn side(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Option<C
             None
         }),
     };
-    let level = reader.get(&own, "level");
+    let level = reader.get(&table, "level");
     let level = level.map_or(Some("moderate"), |field| {
         reader.choice(&field, &crate::keys::LEVELS, &[])
     });
@@ -309,7 +312,7 @@ fn side(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Option<C
         types: types?,
         storeys: storeys?,
         level: level?.to_owned(),
-        path: own.path.clone(),
+        path: table.path.clone(),
     })
 }
 
@@ -320,7 +323,7 @@ fn list<'n, T: PartialEq>(
     example: &str,
     read: impl Fn(&mut Reader<'_>, &Field<'n>) -> Option<T>,
 ) -> Option<Vec<T>> {
-    let Some(entries) = field.entries().filter(|own| !own.is_empty()) else {
+    let Some(entries) = field.entries().filter(|entry| !entry.is_empty()) else {
         let found = field.node.describe();
         reader.bad(
             field,
@@ -328,10 +331,10 @@ fn list<'n, T: PartialEq>(
         );
         return None;
     };
-    let read: Vec<Option<T>> = entries.iter().map(|own| read(reader, own)).collect();
+    let read: Vec<Option<T>> = entries.iter().map(|entry| read(reader, entry)).collect();
     let all: Vec<T> = read.into_iter().collect::<Option<_>>()?;
-    for (at, own) in all.iter().enumerate() {
-        if all[..at].contains(own) {
+    for (at, element) in all.iter().enumerate() {
+        if all[..at].contains(element) {
             reader.bad(&entries[at], "stands in the list twice".to_owned());
             return None;
         }
@@ -425,15 +428,15 @@ mod tests {
 
     #[test]
     fn a_classes_file_has_its_defaults() {
-        let own = parse(
+        let file = parse(
             "[class]\ntypes = [\"C1\"]\nstoreys = [3]\n[motion]\nrecord = \"el-centro-1940-ns\"\n",
         )
         .expect("classes");
-        assert_eq!(own.neighbour, own.class);
-        assert_eq!(own.gaps, [0.01, 0.05]);
-        assert_eq!(own.half_storey_up, [false]);
-        assert_eq!(own.in_the_middle, [false]);
-        assert_eq!((own.measure, own.levels.len()), (ClassesMeasure::Pga, 0));
+        assert_eq!(file.neighbour, file.class);
+        assert_eq!(file.gaps, [0.01, 0.05]);
+        assert_eq!(file.half_storey_up, [false]);
+        assert_eq!(file.in_the_middle, [false]);
+        assert_eq!((file.measure, file.levels.len()), (ClassesMeasure::Pga, 0));
     }
 
     #[test]

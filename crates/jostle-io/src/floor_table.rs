@@ -15,7 +15,10 @@ pub fn floor_spectra_columns(found: &FloorSpectra) -> Vec<(&'static str, Values)
     let mut rows: Vec<Row<'_>> = Vec::new();
     for (index, floor) in found.floors.iter().enumerate() {
         let with = Some(("with", &floor.response));
-        let without = floor.without_contact.as_ref().map(|own| ("without", own));
+        let without = floor
+            .without_contact
+            .as_ref()
+            .map(|without_contact| ("without", without_contact));
         for (contact, response) in with.into_iter().chain(without) {
             for curve in &response.spectra {
                 let periods = 0..found.periods_s.len();

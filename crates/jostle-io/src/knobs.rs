@@ -81,7 +81,7 @@ fn table(node: Option<&Node>, sections: &[Section], path: &str, at: At<'_>, into
         // A fault that the reader reports.
         Some(_) => return,
     };
-    let own: &[Section] = match table.get("kind").map(|node| &node.value) {
+    let kind_sections: &[Section] = match table.get("kind").map(|node| &node.value) {
         Some(Value::Text(kind)) if kind == "shear" => &[Section::Shear],
         Some(Value::Text(kind)) if kind == "given" => &[Section::Given],
         Some(Value::Text(kind)) if kind == "space-frame" => &[Section::Shear, Section::SpaceFrame],
@@ -93,7 +93,7 @@ fn table(node: Option<&Node>, sections: &[Section], path: &str, at: At<'_>, into
         Section::SpaceFrame,
         Section::Given,
     ];
-    let is_own = |section: &Section| own.contains(section) || !kinds.contains(section);
+    let is_own = |section: &Section| kind_sections.contains(section) || !kinds.contains(section);
     let sections: Vec<Section> = sections.iter().copied().filter(is_own).collect();
     let keys: Vec<&Key> = keys_of(&sections).collect();
     for (index, key) in keys.iter().enumerate() {

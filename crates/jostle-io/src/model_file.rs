@@ -246,7 +246,9 @@ pub(crate) fn read_tree(
                 noted
             },
             stated: Stated {
-                records: motion.as_ref().map_or(0, |own| own.records().len().max(1)),
+                records: motion
+                    .as_ref()
+                    .map_or(0, |motion| motion.records().len().max(1)),
                 buildings: stated::of_buildings(&model, &root, &reinforced),
                 silenced,
             },
@@ -603,7 +605,8 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
         .map(|field| report::read(reader, &field))
         .unwrap_or_default();
     let north = reader.get(&view, "site").and_then(|field| {
-        let in_plan = |own: &jostle::Building| matches!(own.structure, jostle::Structure::Tiers(_));
+        let in_plan =
+            |building: &jostle::Building| matches!(building.structure, jostle::Structure::Tiers(_));
         let read = buildings.as_ref();
         let in_space = read.is_none_or(|read| read.buildings.iter().any(in_plan));
         site::read(reader, &field, in_space)

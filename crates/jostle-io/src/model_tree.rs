@@ -232,8 +232,8 @@ impl ModelTree {
     #[must_use]
     pub fn number(&self, path: &str) -> Option<f64> {
         match &self.values(path)[..] {
-            [TreeValue::Integer(own)] => Some(*own as f64),
-            [TreeValue::Number(own)] => Some(*own),
+            [TreeValue::Integer(integer)] => Some(*integer as f64),
+            [TreeValue::Number(number)] => Some(*number),
             [TreeValue::Text(text)] => {
                 let (number, unit) = split_number(text)?;
                 Some(number * Unit::parse(unit).ok()?.factor)
@@ -256,7 +256,7 @@ impl ModelTree {
     fn change(&mut self, path: &str, change: &Change<'_>) -> Result<(), PathError> {
         // A record out of the list of the model comes with its components across and vertical.
         if let ("motion.record", Change::Replace(TreeValue::Text(name))) = (path, change)
-            && let Some(index) = self.records().iter().position(|own| own == name)
+            && let Some(index) = self.records().iter().position(|record| record == name)
         {
             self.keep_record(index);
             return Ok(());

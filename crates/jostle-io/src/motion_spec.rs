@@ -319,11 +319,18 @@ impl MotionSpec {
         if let Scaling::FactorOfEach(factors) = &one.scaling {
             one.scaling = factors.get(index).copied().map(Scaling::Factor)?;
         }
-        if let Some(across) = one.bearing.as_mut().and_then(|own| own.across.as_mut()) {
+        if let Some(across) = one
+            .bearing
+            .as_mut()
+            .and_then(|bearing| bearing.across.as_mut())
+        {
             across.source = across.source.one_of_several(index);
         }
-        let vertical = one.grounds.as_mut().and_then(|own| own.vertical.as_mut());
-        if let Some(source) = vertical.and_then(|own| own.source.as_mut()) {
+        let vertical = one
+            .grounds
+            .as_mut()
+            .and_then(|ground| ground.vertical.as_mut());
+        if let Some(source) = vertical.and_then(|vertical| vertical.source.as_mut()) {
             *source = source.one_of_several(index);
         }
         Some(one)
@@ -402,9 +409,9 @@ impl MotionSpec {
         if let Some(spec) = &self.bearing {
             let mut across = spec.across.as_ref().map(Self::resolve).transpose()?;
             // Two components of one record keep their ratio; what states an amplitude or a scaling of its own keeps it.
-            if let (Some(motion), Some(own)) = (&mut across, &spec.across)
-                && own.scaling == Scaling::AsRecorded
-                && !own.source.states_its_size()
+            if let (Some(motion), Some(across_spec)) = (&mut across, &spec.across)
+                && across_spec.scaling == Scaling::AsRecorded
+                && !across_spec.source.states_its_size()
             {
                 motion.scale *= motion_scale;
             }

@@ -313,10 +313,10 @@ pub(crate) fn unit_size(
 /// their dimensions differ.
 #[must_use]
 pub fn in_unit_of(other: &str, text: &str) -> Option<String> {
-    let [(_, wanted), (number, own)] = [split_number(other)?, split_number(text)?];
-    let [wanted, own] = [wanted.trim(), own.trim()];
-    let [to, from] = [Unit::parse(wanted).ok()?, Unit::parse(own).ok()?];
-    if wanted.is_empty() || own.is_empty() || !from.has_dimension(to.exponents) {
+    let [(_, wanted), (number, unit)] = [split_number(other)?, split_number(text)?];
+    let [wanted, unit] = [wanted.trim(), unit.trim()];
+    let [to, from] = [Unit::parse(wanted).ok()?, Unit::parse(unit).ok()?];
+    if wanted.is_empty() || unit.is_empty() || !from.has_dimension(to.exponents) {
         return None;
     }
     // Fifteen digits, so that no rounding of the factors shows.

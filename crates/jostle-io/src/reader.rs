@@ -503,7 +503,7 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
     ];
     // Frames have braces, infills and walls of their own.
     let frames = [Section::Frame, Section::SpaceFrame];
-    let of_frames = frames.iter().any(|own| sections.contains(own)) && key != "strut";
+    let of_frames = frames.iter().any(|frame| sections.contains(frame)) && key != "strut";
     if sections.contains(&Section::Building) && NOT_MEMBERS.contains(&key) && !of_frames {
         return "what stands between two floors beside columns is a [[building.damper]], without dashpot too: floors = [1, 2] with the horizontal stiffness, and law = \"yielding\" with its strength".into();
     }

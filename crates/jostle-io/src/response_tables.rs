@@ -18,9 +18,9 @@ fn compared_columns<T>(
 ) -> Vec<(String, Values)> {
     let mut columns = Vec::new();
     for quantity in quantities.iter().filter(|quantity| quantity.places.table) {
-        let own = || rows.iter().map(|row| row.0);
-        let own = quantity_columns(std::slice::from_ref(quantity), own);
-        columns.extend(own.map(|(name, values)| (name.to_owned(), values)));
+        let rows_of = || rows.iter().map(|row| row.0);
+        let quantity_columns = quantity_columns(std::slice::from_ref(quantity), rows_of);
+        columns.extend(quantity_columns.map(|(name, values)| (name.to_owned(), values)));
         if !quantity.places.compared {
             continue;
         }
@@ -45,8 +45,8 @@ pub fn building_columns(summary: &Summary) -> Vec<(String, Values)> {
     let buildings = || summary.buildings.iter();
     let names = buildings().map(|building| building.name.clone());
     let mut columns = vec![("building".to_owned(), Values::Text(names.collect()))];
-    let own = quantity_columns(BuildingSummary::QUANTITIES, buildings);
-    columns.extend(own.map(|(name, values)| (name.to_owned(), values)));
+    let quantity_columns = quantity_columns(BuildingSummary::QUANTITIES, buildings);
+    columns.extend(quantity_columns.map(|(name, values)| (name.to_owned(), values)));
     let rows: Vec<_> = buildings()
         .map(|building| (&building.response, building.without_contact.as_ref()))
         .collect();
@@ -64,8 +64,8 @@ pub fn floor_columns(summary: &Summary) -> Vec<(String, Values)> {
         "building".to_owned(),
         Values::Text(names.cloned().collect()),
     )];
-    let own = quantity_columns(FloorSummary::QUANTITIES, floors);
-    columns.extend(own.map(|(name, values)| (name.to_owned(), values)));
+    let quantity_columns = quantity_columns(FloorSummary::QUANTITIES, floors);
+    columns.extend(quantity_columns.map(|(name, values)| (name.to_owned(), values)));
     let rows: Vec<_> = floors()
         .map(|floor| (&floor.response, floor.without_contact.as_ref()))
         .collect();

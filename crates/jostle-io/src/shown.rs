@@ -160,7 +160,10 @@ impl Shown {
     /// The quantity whose SI unit has this name.
     #[must_use]
     pub fn named(si: &str) -> Option<Self> {
-        ALL_SHOWN.iter().find(|own| own.si.0 == si).copied()
+        ALL_SHOWN
+            .iter()
+            .find(|candidate| candidate.si.0 == si)
+            .copied()
     }
 
     /// The name of its SI unit.
@@ -297,12 +300,12 @@ pub fn in_units<T>(chosen: Option<Units>, write: impl FnOnce() -> T) -> T {
 /// The same for a text about one model: `asked` by its file, unless a system was chosen.
 pub fn by_model<T>(asked: Option<Units>, write: impl FnOnce() -> T) -> T {
     let (chosen, holds) = HOLDS.get();
-    let own = if chosen {
+    let units = if chosen {
         holds
     } else {
         asked.unwrap_or(holds)
     };
-    within((chosen, own), write)
+    within((chosen, units), write)
 }
 
 /// What a model file asks for holds until the end of the surrounding [`in_units`], unless a system was chosen: for commands
@@ -333,11 +336,11 @@ mod tests {
     /// The reader of units knows every unit that is shown, with the same size.
     #[test]
     fn what_is_shown_can_be_typed() {
-        for own in ALL_SHOWN {
-            for (name, size) in [own.si, own.us] {
+        for unit in ALL_SHOWN {
+            for (name, size) in [unit.si, unit.us] {
                 let read = Unit::parse(name).unwrap_or_else(|error| panic!("{name}: {error:?}"));
                 // A mass is shown as its weight.
-                let weight = name != own.si.0 && matches!(own.si.0, "t" | "kg/m");
+                let weight = name != unit.si.0 && matches!(unit.si.0, "t" | "kg/m");
                 let expected = if weight {
                     read.factor / STANDARD_GRAVITY
                 } else {
@@ -348,8 +351,8 @@ mod tests {
                     "{name}: {size}, not {expected}"
                 );
             }
-            let named = Shown::named(own.si.0).map(|found| found.us.0);
-            assert_eq!(named, Some(own.us.0), "{} names one quantity", own.si.0);
+            let named = Shown::named(unit.si.0).map(|found| found.us.0);
+            assert_eq!(named, Some(unit.us.0), "{} names one quantity", unit.si.0);
         }
     }
 
@@ -373,7 +376,7 @@ mod tests {
     #[test]
     fn numbers_are_converted_by_hand() {
         in_units(Some(Units::Us), || {
-            for (own, si, text) in [
+            for (unit, si, text) in [
                 (LENGTH, 0.1, "3.94 in"),
                 (HEIGHT, 30.48, "100.0 ft"),
                 (FORCE, 4_448.221_615, "1.0 kip"),
@@ -389,7 +392,7 @@ mod tests {
                 (SPEED, 1.0, "39.4 in/s"),
                 (GROUND_ACCELERATION, 9.806_65, "1.000 g"),
             ] {
-                assert_eq!(own.text(si, 0), text);
+                assert_eq!(unit.text(si, 0), text);
             }
         });
         assert_eq!(FORCE.text(1_282_850.0, 1), "1282.8 kN");

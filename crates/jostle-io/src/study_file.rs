@@ -183,12 +183,12 @@ impl StudyFile {
         let mut moved = error;
         let mut all_here = true;
         for fault in &mut moved.faults {
-            let own = factors.iter().find(|&&index| {
+            let factor = factors.iter().find(|&&index| {
                 let factor = &self.factors[index];
                 let mut paths = factor.paths.iter();
                 !factor.from_model && paths.any(|path| touches(path, &fault.path))
             });
-            match own {
+            match factor {
                 Some(&index) => {
                     fault.place = Some(self.origin.source.place(&self.factors[index].span));
                     fault.path = format!("vary[{}]: {}", self.factors[index].entry, fault.path);
@@ -478,8 +478,8 @@ fn design_of(
 
 fn zipped_lists_are_equal(reader: &mut Reader<'_>, factors: &[Factor]) {
     // Records of the model are crossed with what is zipped.
-    let own = factors.iter().filter(|factor| !factor.from_model);
-    let lists = own.filter_map(|factor| Some((factor, factor.values.count()?)));
+    let factors = factors.iter().filter(|factor| !factor.from_model);
+    let lists = factors.filter_map(|factor| Some((factor, factor.values.count()?)));
     let mut first = None;
     for (factor, count) in lists {
         let expected = *first.get_or_insert(count);

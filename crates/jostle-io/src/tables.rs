@@ -178,14 +178,14 @@ pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
         let of = |read: fn(&ImpactSliding) -> f64| {
             Values::Instant(
                 impacts()
-                    .map(|own| own.sliding.as_ref().map(read))
+                    .map(|impact| impact.sliding.as_ref().map(read))
                     .collect(),
             )
         };
-        columns.push(("slip_speed_m_s", of(|own| own.slip_speed_m_s)));
+        columns.push(("slip_speed_m_s", of(|sliding| sliding.slip_speed_m_s)));
         columns.push((
             "tangential_impulse_n_s",
-            of(|own| own.tangential_impulse_n_s),
+            of(|sliding| sliding.tangential_impulse_n_s),
         ));
     }
     columns
@@ -324,11 +324,11 @@ pub fn write_hinges_parquet(
 #[must_use]
 pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'static str, Values)> {
     let mut rows: Vec<(&str, Option<f64>, &SectionSummary)> = Vec::new();
-    for (index, own) in summary.buildings.iter().enumerate() {
+    for (index, building_summary) in summary.buildings.iter().enumerate() {
         if building.is_some_and(|building| building != index) {
             continue;
         }
-        for member in &own.members {
+        for member in &building_summary.members {
             rows.extend(member.ends.iter().map(|end| (&member.name[..], None, end)));
             for struck in &member.struck {
                 for side in [&struck.below, &struck.above] {
@@ -356,12 +356,15 @@ pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'stat
             Values::Instant(values.collect())
         };
         columns.extend([
-            ("shear_across_peak_n", across(|own| own.shear_across_peak_n)),
+            (
+                "shear_across_peak_n",
+                across(|peaks| peaks.shear_across_peak_n),
+            ),
             (
                 "moment_across_peak_n_m",
-                across(|own| own.moment_across_peak_n_m),
+                across(|peaks| peaks.moment_across_peak_n_m),
             ),
-            ("torque_peak_n_m", across(|own| own.torque_peak_n_m)),
+            ("torque_peak_n_m", across(|peaks| peaks.torque_peak_n_m)),
         ]);
     }
     columns
@@ -383,11 +386,11 @@ struct CapacityRow<'a> {
 #[must_use]
 pub fn capacity_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'static str, Values)> {
     let mut rows: Vec<CapacityRow<'_>> = Vec::new();
-    for (index, own) in summary.buildings.iter().enumerate() {
+    for (index, building_summary) in summary.buildings.iter().enumerate() {
         if building.is_some_and(|building| building != index) {
             continue;
         }
-        for member in &own.members {
+        for member in &building_summary.members {
             let ratios = member.ratio.iter().chain(&member.other_ratios);
             rows.extend(ratios.map(|ratio| CapacityRow {
                 member: &member.name,
@@ -397,7 +400,7 @@ pub fn capacity_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'st
                 axial_failure: member.axial_failure,
             }));
         }
-        for joint in &own.joints {
+        for joint in &building_summary.joints {
             let ratios = joint.ratio.iter().chain(&joint.other_ratios);
             rows.extend(ratios.map(|ratio| CapacityRow {
                 member: &joint.name,
@@ -494,7 +497,7 @@ fn member_history_table<'a>(
     let names = move || {
         texts(
             sections()
-                .map(|(of, own, _)| member_name(of, own))
+                .map(|(of, member, _)| member_name(of, member))
                 .collect(),
         )
     };

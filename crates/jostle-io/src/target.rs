@@ -74,13 +74,13 @@ impl TargetWords {
     /// [`TargetError::Word`] with the first word that is missing, wrong, or does not go with the code.
     pub fn target(&self) -> Result<TargetSpectrum, TargetError> {
         let code = choose("code", self.code.as_deref(), None, TARGET_CODES)?;
-        let own: &[&str] = match code {
+        let keys: &[&str] = match code {
             0 => &["intensity", "site", "group", "level"],
             1 => &["type", "ground", "ag"],
             _ => &["sds", "sd1", "tl"],
         };
         for (key, word) in self.words() {
-            if word.is_some() && !own.contains(&key) {
+            if word.is_some() && !keys.contains(&key) {
                 let problem = format!("does not go with code = \"{}\"", TARGET_CODES[code]);
                 return Err(TargetError::Word { key, problem });
             }

@@ -76,7 +76,7 @@ fn converted(line: &str) -> String {
 fn quantity(text: &str) -> Option<String> {
     let (number, unit) = text.split_once(' ')?;
     let number: f64 = number.parse().ok()?;
-    let (_, us, rounding) = UNITS.iter().find(|own| own.0 == unit)?;
+    let (_, us, rounding) = UNITS.iter().find(|candidate| candidate.0 == unit)?;
     let [from, to] = [unit, us].map(|unit| Unit::parse(unit).ok());
     let (from, to) = (from?, to?);
     let weight = match from.exponents == to.exponents {

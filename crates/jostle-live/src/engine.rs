@@ -568,8 +568,8 @@ mod tests {
         }
         let engine = engine(&inside);
         // Whether it is a record at all is for the reader to say.
-        let own = with_record(&engine, "own.csv");
-        assert!(!matches!(own, Err(Trouble::Faults(f)) if f[0].problem.contains("outside")));
+        let record = with_record(&engine, "own.csv");
+        assert!(!matches!(record, Err(Trouble::Faults(f)) if f[0].problem.contains("outside")));
         let outside = folder.path().join("outside.csv");
         let outside = outside.to_string_lossy();
         for name in [

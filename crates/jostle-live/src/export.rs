@@ -90,7 +90,7 @@ pub fn export_all(engines: &[Engine], module: &[u8]) -> Result<String, ExportErr
         script #engine type="text/plain" { (PreEscaped(STANDARD.encode(module))) }
     };
     // The engine inside knows only what the model asks for.
-    let units = first.and_then(|own| own.units).unwrap_or_default();
+    let units = first.and_then(|engine| engine.units).unwrap_or_default();
     Ok(in_units(Some(units), || {
         page::page_with_engine(name, markup)
     }))

@@ -230,8 +230,8 @@ pub fn uneven_spectrum(
         }
     }
     let curves = dampings.iter().enumerate().map(|(i, &damping)| {
-        let own = &peaks[i * periods.len()..(i + 1) * periods.len()];
-        curve(damping, periods, own)
+        let peaks = &peaks[i * periods.len()..(i + 1) * periods.len()];
+        curve(damping, periods, peaks)
     });
     Ok(ResponseSpectrum {
         periods: periods.to_vec(),
@@ -329,8 +329,8 @@ impl<'a> Sweep<'a> {
             if length > 0.0 {
                 let place = self.coefficients(length);
                 // Not borrowed, because the state of the same oscillators changes.
-                let own = self.kept[place].clone();
-                self.advance(&own, a0, a1);
+                let coefficients = self.kept[place].clone();
+                self.advance(&coefficients, a0, a1);
             } else {
                 self.x.iter_mut().for_each(|x| *x += a1 - a0);
             }

@@ -54,29 +54,29 @@ impl City {
         if !(1e-3..=1e-1).contains(&file.tolerance) {
             return Err(argument_error("tolerance: must lie between 0.001 and 0.1"));
         }
-        let own = py.detach(|| jostle_city::City::new(file));
-        Ok(Self(Arc::new(own.map_err(city_error)?)))
+        let detach = py.detach(|| jostle_city::City::new(file));
+        Ok(Self(Arc::new(detach.map_err(city_error)?)))
     }
 
     /// The city whose run a folder holds.
     #[staticmethod]
     fn of_folder(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
-        let own = py.detach(|| jostle_city::City::of_folder(&folder));
-        Ok(Self(Arc::new(own.map_err(city_error)?)))
+        let detach = py.detach(|| jostle_city::City::of_folder(&folder));
+        Ok(Self(Arc::new(detach.map_err(city_error)?)))
     }
 
     /// Title, counts, names of the motions, what was found of them, warnings, and whether the gap is given, as JSON.
     fn facts(&self) -> String {
-        let own = &self.0;
+        let city = &self.0;
         json!({
-            "title": own.file.title,
-            "buildings": own.inventory.buildings.len(),
-            "pairs": own.neighbours.pairs.len(),
-            "cases": own.cases(),
-            "motions": own.motions(),
-            "notes": own.told(),
-            "warnings": own.file.warnings,
-            "gap_is_given": own.file.gap_is_given,
+            "title": city.file.title,
+            "buildings": city.inventory.buildings.len(),
+            "pairs": city.neighbours.pairs.len(),
+            "cases": city.cases(),
+            "motions": city.motions(),
+            "notes": city.told(),
+            "warnings": city.file.warnings,
+            "gap_is_given": city.file.gap_is_given,
         })
         .to_string()
     }
@@ -126,7 +126,7 @@ impl City {
                     &folder,
                     RunOptions { shard },
                     &|| watch.stops(),
-                    &mut |own| watch.note(own.cases as f64, own.of as f64),
+                    &mut |progress| watch.note(progress.cases as f64, progress.of as f64),
                 )
             })
         })?;
@@ -186,47 +186,47 @@ pub(crate) fn footprints(
         metres,
     };
     py.detach(|| {
-        let own = Footprints::read(&path, &options, reach)?;
+        let footprints = Footprints::read(&path, &options, reach)?;
         if let Some(folder) = &out {
-            own.write(folder)?;
+            footprints.write(folder)?;
         }
-        Ok(counts(&own).to_string())
+        Ok(counts(&footprints).to_string())
     })
     .map_err(city_error)
 }
 
-fn counts(own: &Footprints) -> Value {
-    let buildings = &own.inventory.buildings;
+fn counts(footprints: &Footprints) -> Value {
+    let buildings = &footprints.inventory.buildings;
     let known = |of: &dyn Fn(&jostle_city::Building) -> bool| {
-        buildings.iter().filter(|own| of(own)).count()
+        buildings.iter().filter(|building| of(building)).count()
     };
     let mut mends: HashMap<&str, usize> = HashMap::new();
-    for mend in &own.inventory.mends {
+    for mend in &footprints.inventory.mends {
         *mends.entry(mend.what).or_default() += 1;
     }
     let at = |position: Position| {
-        let pairs = own.neighbours.pairs.iter();
-        pairs.filter(|own| own.position == position).count()
+        let pairs = footprints.neighbours.pairs.iter();
+        pairs.filter(|pair| pair.position == position).count()
     };
-    let columns = own.inventory.columns.iter();
+    let columns = footprints.inventory.columns.iter();
     let columns: HashMap<&str, &String> = columns.map(|(of, name)| (of.name(), name)).collect();
     json!({
-        "rows": own.inventory.rows,
+        "rows": footprints.inventory.rows,
         "buildings": buildings.len(),
         "columns": columns,
-        "storeys_known": known(&|own| own.storeys.is_some()),
-        "heights_known": known(&|own| own.height.is_some()),
-        "years_known": known(&|own| own.year.is_some()),
-        "types_known": known(&|own| own.kind.is_some()),
+        "storeys_known": known(&|footprints| footprints.storeys.is_some()),
+        "heights_known": known(&|footprints| footprints.height.is_some()),
+        "years_known": known(&|footprints| footprints.year.is_some()),
+        "types_known": known(&|footprints| footprints.kind.is_some()),
         "mends": mends,
-        "pairs": own.neighbours.pairs.len(),
-        "overlaps": own.neighbours.overlaps.len(),
-        "with_neighbours": own.with_neighbours(),
+        "pairs": footprints.neighbours.pairs.len(),
+        "overlaps": footprints.neighbours.overlaps.len(),
+        "with_neighbours": footprints.with_neighbours(),
         "inside": at(Position::Inside),
         "at_end": at(Position::End),
         "at_corner": at(Position::Corner),
-        "blocks": own.blocks.len(),
-        "largest_block": own.blocks.iter().map(|own| own.buildings.len()).max().unwrap_or(0),
+        "blocks": footprints.blocks.len(),
+        "largest_block": footprints.blocks.iter().map(|footprints| footprints.buildings.len()).max().unwrap_or(0),
     })
 }
 

@@ -64,15 +64,15 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
         })
     });
     let links = model.links.iter().enumerate().map(|(index, link)| {
-        let own = system.links.iter().filter(|element| element.link == index);
-        let own = own
+        let links = system.links.iter().filter(|element| element.link == index);
+        let floors = links
             .map(|element| json!({ "floors": system.floors_of(&element.ports), "height_m": element.height }));
         json!({
             "between": names(system, link.between),
             "law": link.law.name(),
             "stiffness_n_m": link.stiffness,
             "damping_n_s_m": link.damping,
-            "floors": own.collect::<Vec<_>>(),
+            "floors": floors.collect::<Vec<_>>(),
         })
     });
     json!({

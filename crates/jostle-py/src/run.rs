@@ -246,7 +246,7 @@ impl Run {
         method: bool,
     ) -> PyResult<String> {
         let methods = self.methods(py, method)?;
-        let report = self.with_results(py, without_contact, &methods, |own| own.report());
+        let report = self.with_results(py, without_contact, &methods, |results| results.report());
         Ok(report.unwrap_or_default())
     }
 

@@ -146,7 +146,8 @@ impl Study {
                 let mut remarks = remarks.lock().unwrap_or_else(PoisonError::into_inner);
                 remarks.push(text.to_owned());
             };
-            let note = |own: Progress| watch.note(own.finished as f64, own.cases as f64);
+            let note =
+                |progress: Progress| watch.note(progress.finished as f64, progress.cases as f64);
             jostle_study::run(&study, &folder, &settings, &|| watch.stops(), &note, &keep)
         });
         if let Some(remark) = remark {

@@ -142,16 +142,18 @@ impl Table {
                 let histories = histories.bind(py).try_readonly()?;
                 let count = self.rows(py).max(1);
                 let values = histories.as_slice()?.chunks(count);
-                values.map(|own| Values::Real(pick(own, &rows))).collect()
+                values
+                    .map(|history| Values::Real(pick(history, &rows)))
+                    .collect()
             }
             Columns::Own(columns) => columns
                 .iter()
                 .map(|values| match values {
-                    Values::Real(own) => Values::Real(pick(own, &rows)),
-                    Values::Instant(own) => Values::Instant(pick(own, &rows)),
-                    Values::Whole(own) => Values::Whole(pick(own, &rows)),
-                    Values::Text(own) => Values::Text(pick(own, &rows)),
-                    Values::Bytes(own) => Values::Bytes(pick(own, &rows)),
+                    Values::Real(real) => Values::Real(pick(real, &rows)),
+                    Values::Instant(instant) => Values::Instant(pick(instant, &rows)),
+                    Values::Whole(histories) => Values::Whole(pick(histories, &rows)),
+                    Values::Text(histories) => Values::Text(pick(histories, &rows)),
+                    Values::Bytes(bytes) => Values::Bytes(pick(bytes, &rows)),
                 })
                 .collect(),
         };

@@ -185,24 +185,24 @@ impl Sized {
 
 /// A design spectrum by the words of a code, or from the text of a file of points.
 fn target_of(words: HashMap<String, String>) -> PyResult<TargetSpectrum> {
-    let mut own = TargetWords::default();
+    let mut target_words = TargetWords::default();
     let (mut file, mut factor) = (None, None);
     for (name, value) in words {
         let place = match name.as_str() {
-            "code" => &mut own.code,
-            "intensity" => &mut own.intensity,
-            "site" => &mut own.site,
-            "group" => &mut own.group,
-            "level" => &mut own.level,
-            "type" => &mut own.kind,
-            "ground" => &mut own.ground,
-            "ag" => &mut own.ag,
-            "sds" => &mut own.sds,
-            "sd1" => &mut own.sd1,
-            "tl" => &mut own.tl,
+            "code" => &mut target_words.code,
+            "intensity" => &mut target_words.intensity,
+            "site" => &mut target_words.site,
+            "group" => &mut target_words.group,
+            "level" => &mut target_words.level,
+            "type" => &mut target_words.kind,
+            "ground" => &mut target_words.ground,
+            "ag" => &mut target_words.ag,
+            "sds" => &mut target_words.sds,
+            "sd1" => &mut target_words.sd1,
+            "tl" => &mut target_words.tl,
             "factor" => {
                 factor = Some(value.clone());
-                &mut own.factor
+                &mut target_words.factor
             }
             "file" => &mut file,
             other => return Err(argument_error(format!("{other}: there is no such key"))),
@@ -210,7 +210,7 @@ fn target_of(words: HashMap<String, String>) -> PyResult<TargetSpectrum> {
         *place = Some(value);
     }
     let Some(path) = file else {
-        return own
+        return target_words
             .target()
             .map_err(|error| argument_error(error.to_string()));
     };
@@ -338,28 +338,30 @@ pub(crate) fn processed(
     motion: &Motion,
     given: HashMap<String, f64>,
 ) -> PyResult<Motion> {
-    let mut own = Processing::default();
+    let mut processing = Processing::default();
     for (name, value) in given {
         let whole = value as usize;
         match name.as_str() {
-            "from" => own.from = Some(value),
-            "to" => own.to = Some(value),
-            "detrend" => own.detrend = Some(whole),
-            "detrend_velocity" => own.detrend_velocity = Some(whole),
-            "high_pass" => own.high_pass = Some(value),
-            "low_pass" => own.low_pass = Some(value),
-            "order" => own.order = whole,
-            "resample" => own.resample = Some(value),
-            "pad_before" => own.pad_before = Some(value),
-            "pad_after" => own.pad_after = Some(value),
-            "at_rest" => own.at_rest = value != 0.0,
-            "scale" => own.scale = Some(value),
-            "pga" => own.pga = Some(value),
+            "from" => processing.from = Some(value),
+            "to" => processing.to = Some(value),
+            "detrend" => processing.detrend = Some(whole),
+            "detrend_velocity" => processing.detrend_velocity = Some(whole),
+            "high_pass" => processing.high_pass = Some(value),
+            "low_pass" => processing.low_pass = Some(value),
+            "order" => processing.order = whole,
+            "resample" => processing.resample = Some(value),
+            "pad_before" => processing.pad_before = Some(value),
+            "pad_after" => processing.pad_after = Some(value),
+            "at_rest" => processing.at_rest = value != 0.0,
+            "scale" => processing.scale = Some(value),
+            "pga" => processing.pga = Some(value),
             other => return Err(argument_error(format!("{other}: there is no such key"))),
         }
     }
     let named = motion.named()?;
-    let done = py.detach(|| own.apply(named.motion)).map_err(run_error)?;
+    let done = py
+        .detach(|| processing.apply(named.motion))
+        .map_err(run_error)?;
     Motion::of_named(&named.name, &done)
 }
 

@@ -38,15 +38,15 @@ pub(crate) fn curves(index: usize, building: &Building) -> Markup {
     };
     if let Structure::Tiers(tiers) = &building.structure {
         let frames = || tiers.frames.iter().map(|frame| &frame.hinges);
-        let columns: Vec<_> = frames().flat_map(|own| own.columns.concat()).collect();
-        let beams: Vec<_> = frames().flat_map(|own| own.beams.concat()).collect();
+        let columns: Vec<_> = frames().flat_map(|frame| frame.columns.concat()).collect();
+        let beams: Vec<_> = frames().flat_map(|frame| frame.beams.concat()).collect();
         sets.push((message::hinges_of_columns(), bend(&columns), false));
         sets.push((message::hinges_of_beams(), bend(&beams), false));
         let names = [message::along_x(), message::across_title()];
         for (axis, name) in PlanAxis::BOTH.into_iter().zip(names) {
-            let own = tiers.yielding.iter().filter(|spring| spring.axis == axis);
-            let own: Vec<Hysteresis> = own.map(|spring| spring.hysteresis).collect();
-            sets.push((name, bend(&own), true));
+            let yielding = tiers.yielding.iter().filter(|spring| spring.axis == axis);
+            let hysteresis: Vec<Hysteresis> = yielding.map(|spring| spring.hysteresis).collect();
+            sets.push((name, bend(&hysteresis), true));
         }
     }
     for (name, hinge, slides) in [

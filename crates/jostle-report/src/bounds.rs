@@ -40,12 +40,12 @@ pub(crate) fn section(page: &Page) -> Markup {
     }
 }
 
-fn row(name: &str, own: &Bounded, text: impl Fn(f64) -> String) -> Markup {
+fn row(name: &str, range: &Bounded, text: impl Fn(f64) -> String) -> Markup {
     html! {
         tr {
             th scope="row" { (name) }
-            @for value in [own.nominal, own.lower, own.upper] { td.number { (text(value)) } }
-            td.number { b { (text(own.envelope)) } }
+            @for value in [range.nominal, range.lower, range.upper] { td.number { (text(value)) } }
+            td.number { b { (text(range.envelope)) } }
         }
     }
 }

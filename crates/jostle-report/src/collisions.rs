@@ -231,9 +231,9 @@ fn common_extent(laws: &[CollidedLaw], across: Across) -> Extent {
         )
 }
 
-fn fitting(own: Extent, common: Extent) -> Extent {
-    if own.across > common.across || own.force > common.force {
-        own
+fn fitting(extent: Extent, common: Extent) -> Extent {
+    if extent.across > common.across || extent.force > common.force {
+        extent
     } else {
         common
     }

@@ -124,7 +124,7 @@ pub fn render_comparison(page: &ComparisonPage) -> String {
 
 /// Unit in which a history is shown, and how many of it make up one of the SI unit.
 fn shown(unit: &str, peak: f64) -> (&str, f64) {
-    let own = match unit {
+    let quantity = match unit {
         "m" if peak < 1.0 => format::LENGTH,
         "m" => format::HEIGHT,
         "N" => format::FORCE,
@@ -132,7 +132,7 @@ fn shown(unit: &str, peak: f64) -> (&str, f64) {
         "m/s²" => format::ACCELERATION,
         _ => return (unit, 1.0),
     };
-    (own.name(), own.of(1.0))
+    (quantity.name(), quantity.of(1.0))
 }
 
 fn number(value: Option<f64>, digits: usize) -> String {

@@ -44,18 +44,18 @@ impl Damage {
 pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage> {
     let hinges = &summary.hinges;
     let braces: Vec<usize> = model.map_or_else(Vec::new, braces_of);
-    let is_brace = |own: &&SpringSummary| braces.contains(&own.index);
+    let is_brace = |spring: &&SpringSummary| braces.contains(&spring.index);
     let mut found = Vec::new();
     if hinges.total > braces.len() {
-        let own = |own: &&SpringSummary| !is_brace(own);
-        let list = || hinges.list.iter().filter(own);
-        let yields = || list().filter_map(|own| own.yielded_s);
+        let is_hinge = |spring: &&SpringSummary| !is_brace(spring);
+        let list = || hinges.list.iter().filter(is_hinge);
+        let yields = || list().filter_map(|hinge| hinge.yielded_s);
         let (cracked, yielded, first_s, ductility) = if braces.is_empty() {
             let first = hinges.first_yield_s;
             (hinges.cracked, hinges.yielded, first, hinges.ductility)
         } else {
-            let cracked = list().filter(|own| own.cracked_s.is_some()).count();
-            let ductility = list().map(|own| own.ductility).fold(0.0, f64::max);
+            let cracked = list().filter(|hinge| hinge.cracked_s.is_some()).count();
+            let ductility = list().map(|hinge| hinge.ductility).fold(0.0, f64::max);
             let first = yields().min_by(f64::total_cmp);
             (cracked, yields().count(), first, ductility)
         };
@@ -72,7 +72,7 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
     if !braces.is_empty() {
         let buckled = summary.parts.iter().filter_map(|part| part.buckled_s);
         let yielded = hinges.list.iter().filter(is_brace);
-        let yielded = yielded.filter_map(|own| own.yielded_s);
+        let yielded = yielded.filter_map(|hinge| hinge.yielded_s);
         let (name, times): (_, Vec<f64>) = match buckles(model) {
             true => (message::braces_buckled(), buckled.collect()),
             false => (message::braces_yielded(), yielded.collect()),
@@ -105,8 +105,8 @@ fn braces_of(model: &Building) -> Vec<usize> {
 
 /// Whether the braces of a building buckle; otherwise they yield in either sense.
 fn buckles(model: Option<&Building>) -> bool {
-    let buckling = |own: &Diagonal| {
-        let rule = own.hysteresis.map(|own| own.rule());
+    let buckling = |diagonal: &Diagonal| {
+        let rule = diagonal.hysteresis.map(|hysteresis| hysteresis.rule());
         matches!(rule, Some(HysteresisRule::Buckling(_)))
     };
     model.is_some_and(|model| diagonals(model).iter().any(buckling))
@@ -117,8 +117,11 @@ fn diagonals(model: &Building) -> Vec<Diagonal> {
     match &model.structure {
         Structure::Frame(frame) => frame.diagonals.clone(),
         Structure::Tiers(tiers) => {
-            let of_frames = tiers.frames.iter().flat_map(|own| &own.frame.diagonals);
-            let in_space = tiers.space_frame.iter().flat_map(|own| &own.diagonals);
+            let of_frames = tiers.frames.iter().flat_map(|frame| &frame.frame.diagonals);
+            let in_space = tiers
+                .space_frame
+                .iter()
+                .flat_map(|space_frame| &space_frame.diagonals);
             of_frames.chain(in_space).copied().collect()
         }
         _ => Vec::new(),
@@ -127,18 +130,21 @@ fn diagonals(model: &Building) -> Vec<Diagonal> {
 
 /// Struts of panels, by the corners of their curves that the greatest compression has passed.
 fn struts(model: &Building, summary: &BuildingSummary) -> Option<Damage> {
-    let mut own = diagonals(model);
-    own.retain(|own| own.place.kind == DiagonalKind::Infill);
+    let mut diagonals = diagonals(model);
+    diagonals.retain(|diagonal| diagonal.place.kind == DiagonalKind::Infill);
     let parts = summary.parts.iter().filter(|part| part.kind == "infill");
-    let struts: Vec<_> = own.iter().zip(parts).collect();
+    let struts: Vec<_> = diagonals.iter().zip(parts).collect();
     let passed = |of: fn(&BackboneSide) -> f64| {
-        let passed = struts.iter().filter(|(own, part)| {
-            own.hysteresis
-                .is_some_and(|own| part.deformation_min >= of(own.backbone().side(Side::Negative)))
+        let passed = struts.iter().filter(|(candidate, part)| {
+            candidate.hysteresis.is_some_and(|hysteresis| {
+                part.deformation_min >= of(hysteresis.backbone().side(Side::Negative))
+            })
         });
         passed.count()
     };
-    let all = struts.iter().filter(|(own, _)| own.hysteresis.is_some());
+    let all = struts
+        .iter()
+        .filter(|(strut, _)| strut.hysteresis.is_some());
     let all = all.count();
     (all > 0).then(|| Damage {
         name: message::struts_cracked(),

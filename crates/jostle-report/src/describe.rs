@@ -69,8 +69,8 @@ fn building(
     let mut facts: Facts = vec![(message::storeys(), high)];
     let elevation = building.base.elevation;
     if elevation != 0.0 {
-        let own = format::HEIGHT;
-        let text = format!("{} {}", format::plain(own.of(elevation), 4), own.name());
+        let unit = format::HEIGHT;
+        let text = format!("{} {}", format::plain(unit.of(elevation), 4), unit.name());
         facts.push((message::elevation_of_the_base(), text));
     }
     match &building.structure {
@@ -106,8 +106,8 @@ fn building(
             message::roof_displacement_at_the_end(),
             format::millimetres(summary.response.residual_roof_displacement_m),
         ));
-        if let Some(own) = &summary.foundation {
-            facts.extend(foundation(own));
+        if let Some(footing) = &summary.foundation {
+            facts.extend(foundation(footing));
         }
         let all = damage::damage(Some(building), summary);
         let all: Vec<String> = all.iter().map(Damage::sentence).collect();
@@ -169,7 +169,7 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
         message::columns_ei(),
         by_place(
             storeys,
-            columns(|own| own.flexural_rigidity),
+            columns(|section| section.flexural_rigidity),
             format::rigidity,
         ),
     ));
@@ -182,7 +182,7 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
     facts.push((
         message::line_mass(),
         message::columns_beams_kg_m(
-            by_place(storeys, columns(|own| own.line_mass), |m| {
+            by_place(storeys, columns(|section| section.line_mass), |m| {
                 format::plain(format::LINE_MASS.of(m), 4)
             }),
             grouped(&frame.beam_mass, |m| {
@@ -262,11 +262,12 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
         facts.push((message::grid_lines_at_x(), lines(&frame.lines_x)));
         facts.push((message::grid_lines_at_y(), lines(&frame.lines_y)));
         let columns = frame.members.iter();
-        let columns = columns.filter(|own| matches!(own.place, jostle::SpacePlace::Column { .. }));
+        let columns =
+            columns.filter(|column| matches!(column.place, jostle::SpacePlace::Column { .. }));
         let columns = columns.count();
         let beams = frame.members.len() - columns;
         let storeys = frame.walls.iter();
-        let storeys = storeys.map(|own| own.storeys[1] - own.storeys[0] + 1);
+        let storeys = storeys.map(|storey| storey.storeys[1] - storey.storeys[0] + 1);
         let columns = columns - storeys.sum::<usize>();
         let members = match frame.walls.len() {
             0 => message::columns_and_beams_count(columns, beams),
@@ -296,8 +297,8 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     }
     let torsion = storeys.iter().map(|storey| storey.stiffness[2]);
     let torsion: Vec<f64> = torsion.collect();
-    let own = format::ROTATIONAL_STIFFNESS;
-    let unit = |value: f64| format::unit(format::plain(own.of(value), 4), own.name());
+    let quantity = format::ROTATIONAL_STIFFNESS;
+    let unit = |value: f64| format::unit(format::plain(quantity.of(value), 4), quantity.name());
     facts.push((message::torsional_stiffness(), grouped(&torsion, unit)));
 }
 
@@ -315,7 +316,7 @@ fn damping(building: &Building, summary: Option<&BuildingSummary>) -> String {
         Damping::Rayleigh { alpha, beta } => message::rayleigh_beta(coefficients(*alpha, *beta)),
         Damping::Ratio { ratio, modes, .. } => {
             // Above a soft storey modes of sway replace lateral ones that are missing.
-            let known = summary.map_or(0, |own| own.periods_s.len());
+            let known = summary.map_or(0, |summary| summary.periods_s.len());
             let modes = match &modes[..] {
                 [] if building.base.isolation.is_some() => &[1],
                 [] => usual_damping_modes(known.max(building.floors().min(2))),
@@ -421,14 +422,14 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
         ));
     }
     let least = summary.contacts.iter();
-    let least = least.filter_map(|own| own.equivalent_restitution);
+    let least = least.filter_map(|contact| contact.equivalent_restitution);
     if let Some(e) = least.reduce(f64::min) {
         facts.push((message::as_restitution(), format::fixed(e, 3)));
     }
     let deepest = summary
         .contacts
         .iter()
-        .filter_map(|own| own.crushed_depth_m);
+        .filter_map(|contact| contact.crushed_depth_m);
     if let Some(depth) = deepest.reduce(f64::max) {
         facts.push((message::crushed_by(), format::millimetres(depth)));
     }
@@ -441,23 +442,23 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
 /// Constants that the law states instead of a coefficient of restitution.
 fn constants(law: &ContactLaw) -> Facts {
     match law.kind {
-        LawKind::Dashpot(own) => vec![(message::dashpot(), format::linear_dashpot(own.damping))],
-        LawKind::BilinearGiven(own) => vec![
+        LawKind::Dashpot(kind) => vec![(message::dashpot(), format::linear_dashpot(kind.damping))],
+        LawKind::BilinearGiven(kind) => vec![
             (
                 message::second_stiffness(),
-                format::stiffness(own.second_stiffness),
+                format::stiffness(kind.second_stiffness),
             ),
             (
                 message::yield_indentation(),
-                format::millimetres(own.yield_indentation),
+                format::millimetres(kind.yield_indentation),
             ),
         ],
-        LawKind::Formula(own) => vec![(message::contact_force_formula(), own.to_string())],
-        LawKind::Crushing(own) => vec![
-            (message::crushing_force(), format::force(own.force)),
+        LawKind::Formula(formula) => vec![(message::contact_force_formula(), formula.to_string())],
+        LawKind::Crushing(crushing) => vec![
+            (message::crushing_force(), format::force(crushing.force)),
             (
                 message::crushing_hardening(),
-                format::plain(own.hardening, 3),
+                format::plain(crushing.hardening, 3),
             ),
         ],
         _ => Facts::new(),
@@ -621,7 +622,7 @@ fn energy(page: &Page) -> Facts {
 }
 
 /// How a foundation moves, and what the soil does to the fundamental modes; of a building with a plan also across, and in torsion.
-fn foundation(own: &FoundationSummary) -> Facts {
+fn foundation(foundation: &FoundationSummary) -> Facts {
     let milliradians = |value: f64| format::unit(format::plain(value * 1e3, 3), "mrad");
     let mut facts = Facts::new();
     let mut add = |name: &'static str,
@@ -658,45 +659,45 @@ fn foundation(own: &FoundationSummary) -> Facts {
     add(
         message::foundation(),
         [
-            own.sway_peak_m,
-            own.rocking_peak_rad,
-            own.period_s,
-            own.period_ratio,
-            own.damping_ratio,
-            own.damping_ratio_fixed,
+            foundation.sway_peak_m,
+            foundation.rocking_peak_rad,
+            foundation.period_s,
+            foundation.period_ratio,
+            foundation.damping_ratio,
+            foundation.damping_ratio_fixed,
         ],
         &[
-            (own.sway_stiffness_n_m, units[0]),
-            (own.sway_damping_n_s_m, units[1]),
-            (own.rocking_stiffness_n_m_rad, units[2]),
-            (own.rocking_damping_n_m_s_rad, units[3]),
+            (foundation.sway_stiffness_n_m, units[0]),
+            (foundation.sway_damping_n_s_m, units[1]),
+            (foundation.rocking_stiffness_n_m_rad, units[2]),
+            (foundation.rocking_damping_n_m_s_rad, units[3]),
         ],
     );
-    let Some(own) = &own.in_plan else {
+    let Some(plan) = &foundation.in_plan else {
         return facts;
     };
     add(
         message::foundation_across(),
         [
-            own.sway_across_peak_m,
-            own.rocking_across_peak_rad,
-            own.period_across_s,
-            own.period_ratio_across,
-            own.damping_ratio_across,
-            own.damping_ratio_across_fixed,
+            plan.sway_across_peak_m,
+            plan.rocking_across_peak_rad,
+            plan.period_across_s,
+            plan.period_ratio_across,
+            plan.damping_ratio_across,
+            plan.damping_ratio_across_fixed,
         ],
         &[
-            (own.sway_across_stiffness_n_m, units[0]),
-            (own.sway_across_damping_n_s_m, units[1]),
-            (own.rocking_across_stiffness_n_m_rad, units[2]),
-            (own.rocking_across_damping_n_m_s_rad, units[3]),
-            (own.torsional_stiffness_n_m_rad, units[2]),
-            (own.torsional_damping_n_m_s_rad, units[3]),
+            (plan.sway_across_stiffness_n_m, units[0]),
+            (plan.sway_across_damping_n_s_m, units[1]),
+            (plan.rocking_across_stiffness_n_m_rad, units[2]),
+            (plan.rocking_across_damping_n_m_s_rad, units[3]),
+            (plan.torsional_stiffness_n_m_rad, units[2]),
+            (plan.torsional_damping_n_m_s_rad, units[3]),
         ],
     );
     facts.push((
         message::foundation_turns(),
-        milliradians(own.torsion_peak_rad),
+        milliradians(plan.torsion_peak_rad),
     ));
     facts
 }

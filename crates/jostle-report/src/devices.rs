@@ -123,7 +123,7 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
     let mut devices = Vec::new();
     for (index, isolation, result) in isolated(page) {
         let name = message::name_kind_bearings(&page.summary.buildings[index].name, result.kind);
-        let own = |name: String, moved: f64, source: Source<'a>| Device {
+        let device = |name: String, moved: f64, source: Source<'a>| Device {
             name,
             building: index,
             note: note(moved, result.hysteretic_j + result.damped_j),
@@ -135,18 +135,18 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
         };
         let along = result.displacement_max_m.max(-result.displacement_min_m);
         let Some(in_plan) = &result.in_plan else {
-            devices.push(own(name, along, Source::Bearings(index)));
+            devices.push(device(name, along, Source::Bearings(index)));
             continue;
         };
         let across = in_plan
             .displacement_across_max_m
             .max(-in_plan.displacement_across_min_m);
-        devices.push(own(
+        devices.push(device(
             message::bearings_along(&name),
             along,
             Source::Bearings(index),
         ));
-        devices.push(own(
+        devices.push(device(
             message::bearings_across(&name),
             across,
             Source::BearingsAcross(index),
@@ -156,7 +156,7 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
             outline: circle(isolation),
             marks: Vec::new(),
             is_path: true,
-            ..own(message::path_in_plan(&name), along, Source::Path(index))
+            ..device(message::path_in_plan(&name), along, Source::Path(index))
         });
     }
     let mut links: Vec<(usize, &LinkSummary, &Link, &LinkFloorSummary)> = Vec::new();
@@ -251,11 +251,11 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
         [Some(left), Some(right)] => message::floors_left_right(left, right),
         [Some(one), None] | [None, Some(one)] => message::floor_one(one),
         [None, None] => {
-            let own = format::HEIGHT;
+            let unit = format::HEIGHT;
             format!(
                 "{} {}",
-                format::plain(own.of(floor.height_m), 3),
-                own.name()
+                format::plain(unit.of(floor.height_m), 3),
+                unit.name()
             )
         }
     };
@@ -384,19 +384,19 @@ fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> Str
         text.push_str(&message::share_of_limit(&used, format::millimetres(limit)));
     }
     let residual = match &result.in_plan {
-        Some(own) => own.residual_stroke_m,
+        Some(plan) => plan.residual_stroke_m,
         None => result.residual_m.abs(),
     };
     text.push_str(&message::they_dissipate_residual_displacement(
         format::energy(result.hysteretic_j + result.damped_j),
         format::millimetres(residual),
     ));
-    if let Some(own) = &result.in_plan {
+    if let Some(plan) = &result.in_plan {
         text.push_str(&message::worst_bearing(
-            own.stroke_bearing,
-            own.bearings,
+            plan.stroke_bearing,
+            plan.bearings,
             format::force(result.force_peak_n),
-            format::force(own.force_across_peak_n),
+            format::force(plan.force_across_peak_n),
         ));
     }
     if let Some(force) = result.stop_force_peak_n.filter(|force| *force > 0.0) {
@@ -432,8 +432,8 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
         rows.push((
             message::name_kind_bearings(&page.summary.buildings[index].name, result.kind),
             [
-                kilo(result.in_plan.map_or(result.force_peak_n, |own| {
-                    own.force_across_peak_n.max(result.force_peak_n)
+                kilo(result.in_plan.map_or(result.force_peak_n, |plan| {
+                    plan.force_across_peak_n.max(result.force_peak_n)
                 })),
                 milli(moved),
                 isolation.reach().map_or_else(none, milli),
@@ -442,7 +442,7 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
                     .map_or_else(none, |limit| format::fixed(100.0 * moved / limit, 0)),
                 none(),
                 milli(match result.in_plan {
-                    Some(own) => own.residual_stroke_m,
+                    Some(plan) => plan.residual_stroke_m,
                     None => result.residual_m,
                 }),
                 kilo(result.hysteretic_j + result.damped_j),

@@ -40,44 +40,44 @@ pub(crate) struct MemberData {
 }
 
 impl DiagonalData {
-    pub(crate) fn of(own: &Diagonal) -> Self {
+    pub(crate) fn of(diagonal: &Diagonal) -> Self {
         Self {
-            storey: own.place.storey,
-            lines: own.place.lines(),
-            infill: own.place.kind == DiagonalKind::Infill,
+            storey: diagonal.place.storey,
+            lines: diagonal.place.lines(),
+            infill: diagonal.place.kind == DiagonalKind::Infill,
             ends: None,
         }
     }
 
-    pub(crate) fn in_space(frame: &SpaceFrame, own: &Diagonal) -> Self {
-        let crossings = own.place.crossings();
+    pub(crate) fn in_space(frame: &SpaceFrame, diagonal: &Diagonal) -> Self {
+        let crossings = diagonal.place.crossings();
         let ends = crossings.map(|both| both.map(|crossing| frame.point(crossing)));
         Self {
             ends,
-            ..Self::of(own)
+            ..Self::of(diagonal)
         }
     }
 }
 
 impl WallData {
-    pub(crate) fn of(own: &FrameWall) -> Self {
+    pub(crate) fn of(wall: &FrameWall) -> Self {
         Self {
-            line: own.line - 1,
-            storeys: own.storeys,
-            length: own.length,
+            line: wall.line - 1,
+            storeys: wall.storeys,
+            length: wall.length,
         }
     }
 }
 
 impl MemberData {
     pub(crate) fn all_of(frame: &SpaceFrame) -> Vec<Self> {
-        let member = |own: &SpaceMember| {
-            let level = own.place.storey();
-            let lower = match own.place {
+        let member = |member: &SpaceMember| {
+            let level = member.place.storey();
+            let lower = match member.place {
                 SpacePlace::Column { .. } => level.checked_sub(1),
                 SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Some(level),
             };
-            let wall = frame.walls.iter().find(|wall| wall.has(own.place));
+            let wall = frame.walls.iter().find(|wall| wall.has(member.place));
             let half = wall.map(|wall| {
                 let [c, s] = frame.direction.map(|part| 0.5 * wall.length * part);
                 match wall.along {
@@ -87,7 +87,10 @@ impl MemberData {
             });
             Self {
                 wall: half,
-                ends: own.place.crossings().map(|crossing| frame.point(crossing)),
+                ends: member
+                    .place
+                    .crossings()
+                    .map(|crossing| frame.point(crossing)),
                 floors: [lower, Some(level)],
             }
         };

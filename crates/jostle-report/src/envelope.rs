@@ -203,8 +203,8 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             acceleration.push(line(points, message::either_sign()));
         }
     }
-    let all = levels.iter().flat_map(|own| &own.floors).copied();
-    let low = levels.iter().map(|own| own.base).fold(0.0, f64::min);
+    let all = levels.iter().flat_map(|level| &level.floors).copied();
+    let low = levels.iter().map(|level| level.base).fold(0.0, f64::min);
     let ends = [low, all.fold(0.0, f64::max).max(low + 1e-3)];
     html! {
         div.multiples {

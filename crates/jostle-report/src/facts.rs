@@ -41,7 +41,10 @@ pub(crate) fn by_place(
     text: impl Fn(f64) -> String,
 ) -> String {
     let rows: Vec<Vec<Option<f64>>> = (0..storeys).map(of_storey).collect();
-    let is_plain = |row: &Vec<Option<f64>>| row.iter().all(|own| own.is_some() && *own == row[0]);
+    let is_plain = |row: &Vec<Option<f64>>| {
+        row.iter()
+            .all(|candidate| candidate.is_some() && *candidate == row[0])
+    };
     if rows.iter().all(is_plain) {
         let values: Vec<f64> = rows.iter().filter_map(|row| *row.first()?).collect();
         return grouped(&values, text);
@@ -54,13 +57,13 @@ pub(crate) fn by_place(
         }
     }
     let texts = groups.iter().map(|(first, last, row)| {
-        let own = row
+        let cells = row
             .iter()
-            .map(|own| own.map_or_else(|| "–".to_owned(), &text));
-        let own: Vec<String> = own.collect();
+            .map(|row| row.map_or_else(|| "–".to_owned(), &text));
+        let cells: Vec<String> = cells.collect();
         match first == last {
-            true => format!("{first}: {}", own.join(" | ")),
-            false => format!("{first}–{last}: {}", own.join(" | ")),
+            true => format!("{first}: {}", cells.join(" | ")),
+            false => format!("{first}–{last}: {}", cells.join(" | ")),
         }
     });
     texts.collect::<Vec<_>>().join(", ")

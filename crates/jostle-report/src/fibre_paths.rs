@@ -27,7 +27,7 @@ struct End<'a> {
 /// Those whose strains came nearest to their limits, in space one for each plane of bending; none without histories.
 pub(crate) fn plots(page: &Page) -> Vec<Plot> {
     let mut ends = ends(page);
-    let strained = |own: &End<'_>| own.summary.worst_ratio().unwrap_or(0.0);
+    let strained = |end: &End<'_>| end.summary.worst_ratio().unwrap_or(0.0);
     sort_by(&mut ends, |a, b| strained(b).total_cmp(&strained(a)));
     ends.truncate(MOST);
     let planes = ends.iter().flat_map(|end| {
@@ -45,18 +45,18 @@ fn ends<'a>(page: &Page<'a>) -> Vec<End<'a>> {
         if !building.may_yield() {
             continue;
         }
-        let own = Discretization::new(building);
+        let discretization = Discretization::new(building);
         let summaries = page.summary.buildings.get(index);
-        let summaries = summaries.map_or(&[][..], |own| &own.sections);
-        for (section, summary) in own.sections.iter().zip(summaries) {
+        let summaries = summaries.map_or(&[][..], |summary| &summary.sections);
+        for (section, summary) in discretization.sections.iter().zip(summaries) {
             found.push(End {
                 summary,
                 section: section.clone(),
-                first_spring: before + own.springs_of_section(section).start,
+                first_spring: before + discretization.springs_of_section(section).start,
                 building: index,
             });
         }
-        before += own.spring_places.len();
+        before += discretization.spring_places.len();
     }
     found
 }
@@ -78,7 +78,10 @@ fn plot(page: &Page, end: &End<'_>, plane: usize) -> Option<Plot> {
     let shown = |[moment, compression]: [f64; 2]| {
         [format::MOMENT.of(moment), format::FORCE.of(compression)]
     };
-    let single: Vec<[f32; 2]> = path.iter().map(|own| own.map(|own| own as f32)).collect();
+    let single: Vec<[f32; 2]> = path
+        .iter()
+        .map(|path| path.map(|value| value as f32))
+        .collect();
     let kept = thin_loop(&time, &single, POINTS);
     let path = kept.into_iter().map(|row| shown(path[row])).collect();
     let mut lines = vec![Line {
@@ -89,14 +92,15 @@ fn plot(page: &Page, end: &End<'_>, plane: usize) -> Option<Plot> {
     }];
     let member = end.section.member.to_string();
     let mut known = page.sections.iter();
-    let known = known
-        .find(|own| own.building == end.building && own.members.iter().any(|name| *name == member));
-    lines.extend(known.map(|own| {
+    let known = known.find(|candidate| {
+        candidate.building == end.building && candidate.members.iter().any(|name| *name == member)
+    });
+    lines.extend(known.map(|point| {
         Line {
             name: message::interaction_of_the_section().to_owned(),
             points: match plane {
-                0 => outline(own.section),
-                _ => outline(&own.section.turned()),
+                0 => outline(point.section),
+                _ => outline(&point.section.turned()),
             }
             .into_iter()
             .map(shown)

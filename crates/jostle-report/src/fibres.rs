@@ -12,19 +12,19 @@ const MOST_ROWS: usize = 200;
 /// The section; `None` without such columns.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let buildings = page.summary.buildings.iter();
-    let own = buildings.filter(|building| !building.sections.is_empty());
-    let own: Vec<_> = own
+    let buildings = buildings.filter(|building| !building.sections.is_empty());
+    let buildings: Vec<_> = buildings
         .map(|building| (&building.name[..], &building.sections[..]))
         .collect();
-    if own.is_empty() {
+    if buildings.is_empty() {
         return None;
     }
-    let all: Vec<&FibreSummary> = own.iter().flat_map(|(_, all)| *all).collect();
+    let all: Vec<&FibreSummary> = buildings.iter().flat_map(|(_, all)| *all).collect();
     let paths = fibre_paths::plots(page);
     Some(html! {
         section #fibres {
             h2 { (message::columns_that_follow_their_axial_force()) }
-            @for (name, all) in &own { p { (sentence(name, all)) } }
+            @for (name, all) in &buildings { p { (sentence(name, all)) } }
             @if !paths.is_empty() {
                 div.static-plots { @for path in &paths { (path.figure()) } }
                 p.quiet { (message::paths_of_ends(paths.len())) }
@@ -35,17 +35,22 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 }
 
 fn sentence(name: &str, all: &[FibreSummary]) -> String {
-    let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|own| has(own)).count();
+    let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|fibre| has(fibre)).count();
     let mut text = message::ends_that_yielded_and_crushed(
         name,
-        count(|own| own.yielded_s.is_some()),
-        count(|own| own.crushed_s.is_some()),
+        count(|end| end.yielded_s.is_some()),
+        count(|end| end.crushed_s.is_some()),
         all.len(),
     );
     let limits = FibreLimit::ALL.into_iter().filter_map(|limit| {
-        let judged = all.iter().flat_map(|own| &own.limits);
-        let judged: Vec<_> = judged.filter(|own| own.limit == limit).collect();
-        let passed = judged.iter().filter(|own| own.passed_s.is_some()).count();
+        let judged = all.iter().flat_map(|fibre| &fibre.limits);
+        let judged: Vec<_> = judged
+            .filter(|candidate| candidate.limit == limit)
+            .collect();
+        let passed = judged
+            .iter()
+            .filter(|limit| limit.passed_s.is_some())
+            .count();
         let what = match limit {
             FibreLimit::Spalling => message::spalling_of_cover(),
             FibreLimit::Crushing => message::crushing_of_cores(),
@@ -63,9 +68,9 @@ fn sentence(name: &str, all: &[FibreSummary]) -> String {
 }
 
 /// Which strains it passed, and when.
-fn passed(own: &FibreSummary) -> String {
-    let passed = own.limits.iter().filter_map(|own| {
-        let name = match own.limit {
+fn passed(fibre: &FibreSummary) -> String {
+    let passed = fibre.limits.iter().filter_map(|limit| {
+        let name = match limit.limit {
             FibreLimit::Spalling => message::spalling_name(),
             FibreLimit::Crushing => message::crushing_name(),
             FibreLimit::Buckling => message::buckling_name(),
@@ -73,7 +78,7 @@ fn passed(own: &FibreSummary) -> String {
         };
         Some(message::limit_passed_at(
             name,
-            format::instant(own.passed_s?),
+            format::instant(limit.passed_s?),
         ))
     });
     let passed: Vec<String> = passed.collect();
@@ -84,7 +89,7 @@ fn passed(own: &FibreSummary) -> String {
 }
 
 fn table(all: &[&FibreSummary]) -> Markup {
-    let in_space = all.iter().any(|own| own.across.is_some());
+    let in_space = all.iter().any(|fibre| fibre.across.is_some());
     let mut columns = vec![
         (message::compression(), format::FORCE.name()),
         (message::moment(), format::MOMENT.name()),
@@ -127,32 +132,33 @@ fn table(all: &[&FibreSummary]) -> Markup {
     }
 }
 
-fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
+fn cells(fibre: &FibreSummary, in_space: bool) -> Vec<String> {
     let nothing = || format::NOTHING.to_owned();
-    let strain =
-        |strain: Option<f64>| strain.map_or_else(nothing, |own| format::significant(1e3 * own, 3));
+    let strain = |strain: Option<f64>| {
+        strain.map_or_else(nothing, |strain| format::significant(1e3 * strain, 3))
+    };
     let instant = |at: Option<f64>| at.map_or_else(nothing, |at| format::fixed(at, 3));
     let greatest = |a: f64, b: f64, unit: f64| format::significant(a.max(-b) / unit, 4);
     let mut cells = vec![
         message::least_to_greatest(
-            format::significant(format::FORCE.of(-own.axial_max_n), 3),
-            format::significant(format::FORCE.of(-own.axial_min_n), 3),
+            format::significant(format::FORCE.of(-fibre.axial_max_n), 3),
+            format::significant(format::FORCE.of(-fibre.axial_min_n), 3),
         ),
         greatest(
-            own.moment_max_n_m,
-            own.moment_min_n_m,
+            fibre.moment_max_n_m,
+            fibre.moment_min_n_m,
             format::MOMENT.size(),
         ),
-        greatest(own.rotation_max_rad, own.rotation_min_rad, 1e-3),
+        greatest(fibre.rotation_max_rad, fibre.rotation_min_rad, 1e-3),
     ];
     if in_space {
-        let across = own.across.as_ref();
+        let across = fibre.across.as_ref();
         cells.extend(across.map_or_else(
             || [nothing(), nothing()],
-            |own| {
+            |peaks| {
                 let [moment, turned] = [
-                    [own.moment_across_max_n_m, own.moment_across_min_n_m],
-                    [own.rotation_across_max_rad, own.rotation_across_min_rad],
+                    [peaks.moment_across_max_n_m, peaks.moment_across_min_n_m],
+                    [peaks.rotation_across_max_rad, peaks.rotation_across_min_rad],
                 ];
                 [
                     greatest(moment[0], moment[1], format::MOMENT.size()),
@@ -162,12 +168,12 @@ fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
         ));
     }
     cells.extend([
-        strain(own.steel_strain),
-        instant(own.yielded_s),
-        strain(own.concrete_strain),
-        instant(own.crushed_s),
-        passed(own),
-        format::significant(format::ENERGY.of(own.dissipated_j), 3),
+        strain(fibre.steel_strain),
+        instant(fibre.yielded_s),
+        strain(fibre.concrete_strain),
+        instant(fibre.crushed_s),
+        passed(fibre),
+        format::significant(format::ENERGY.of(fibre.dissipated_j), 3),
     ]);
     cells
 }

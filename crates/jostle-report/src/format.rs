@@ -136,7 +136,7 @@ pub(crate) fn unit_of(peak: Peak) -> &'static str {
 /// The number of a peak in tables.
 pub(crate) fn shown_peak(peak: Peak, si: f64) -> String {
     match Shown::named(peak.unit) {
-        Some(own) if is_us() => in_unit(own, si, peak.decimals),
+        Some(quantity) if is_us() => in_unit(quantity, si, peak.decimals),
         _ => fixed(peak.factor * si, peak.decimals),
     }
 }
@@ -149,7 +149,7 @@ pub(crate) fn exact(si: f64, unit: &str) -> String {
 
 /// Factor to the unit that is shown, and its name, of a unit without prefix.
 pub(crate) fn factor_of(unit: &str) -> (f64, &str) {
-    Shown::named(unit).map_or((1.0, unit), |own| (own.of(1.0), own.name()))
+    Shown::named(unit).map_or((1.0, unit), |quantity| (quantity.of(1.0), quantity.name()))
 }
 
 /// The constant of a dashpot whose force grows with a power of speed \[N·(s/m)^exponent\], and its unit.

@@ -33,13 +33,13 @@ pub(crate) fn section(page: &Page) -> Markup {
     }
     let all: Vec<Face> = page
         .gaps()
-        .flat_map(|(gap, own)| {
+        .flat_map(|(gap, model_gap)| {
             gap.contacts.iter().filter_map(move |contact| {
                 let plan = contact.in_plan?;
                 let sliding = plan.sliding.filter(|_| contact.impact_count > 0)?;
                 Some(Face {
                     gap,
-                    between: own.between,
+                    between: model_gap.between,
                     contact,
                     plan,
                     sliding,
@@ -104,8 +104,8 @@ fn table(model: &Model, all: &[Face]) -> Markup {
 }
 
 fn coefficient(model: &Model, face: &Face) -> f64 {
-    let own = model.gaps.iter().find(|gap| gap.between == face.between);
-    own.map_or(f64::NAN, |gap| gap.in_plan.friction)
+    let model_gap = model.gaps.iter().find(|gap| gap.between == face.between);
+    model_gap.map_or(f64::NAN, |gap| gap.in_plan.friction)
 }
 
 /// Floor and edge of a side.

@@ -41,7 +41,7 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
         if !building.may_yield() {
             continue;
         }
-        for (own, at) in Discretization::new(building)
+        for (number, at) in Discretization::new(building)
             .spring_places
             .into_iter()
             .enumerate()
@@ -50,7 +50,7 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
                 places.push(Place {
                     building: index,
                     spring: count,
-                    index: own,
+                    index: number,
                     at,
                     hysteresis,
                 });
@@ -64,7 +64,7 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
 
 fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
     let frame_of = |frame: Option<usize>| match (&building.structure, frame) {
-        (Structure::Frame(own), None) => Some(own),
+        (Structure::Frame(frame), None) => Some(frame),
         (Structure::Tiers(tiers), Some(frame)) => Some(&tiers.frames.get(frame - 1)?.frame),
         _ => None,
     };
@@ -79,8 +79,8 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
                 Some(frame) => frame.diagonals.iter(),
                 None => frame_of(frame)?.diagonals.iter(),
             };
-            let own = diagonals.find(|own| own.place == place)?;
-            return own.hysteresis.filter(|_| at.is_hinge());
+            let diagonal = diagonals.find(|diagonal| diagonal.place == place)?;
+            return diagonal.hysteresis.filter(|_| at.is_hinge());
         }
         SpringPlace::Sliding { frame, member } => {
             let frame = frame_of(frame)?;
@@ -114,7 +114,7 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
     }
     if let Structure::Tiers(tiers) = &building.structure {
         let mut springs = tiers.yielding.iter();
-        let own = match at {
+        let location = match at {
             SpringPlace::PlanStorey { storey, axis } => (None, storey, axis),
             SpringPlace::Element {
                 element,
@@ -133,12 +133,12 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
             SpringPlace::InSpace { place, axis, .. } => {
                 let frame = tiers.space_frame.as_ref()?;
                 let mut members = frame.members.iter();
-                let own = members.find(|own| own.place == place)?;
+                let member = members.find(|member| member.place == place)?;
                 let plane = match place {
                     SpacePlace::Column { .. } => axis.index(),
                     SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => 0,
                 };
-                return own.hinges[plane];
+                return member.hinges[plane];
             }
             SpringPlace::BeamInPlan {
                 frame, floor, bay, ..
@@ -148,7 +148,8 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
             }
             _ => return None,
         };
-        let found = springs.find(|spring| (spring.element, spring.storey + 1, spring.axis) == own);
+        let found =
+            springs.find(|spring| (spring.element, spring.storey + 1, spring.axis) == location);
         return found.map(|spring| spring.hysteresis);
     }
     match (building.hinges.as_ref()?, at) {
@@ -231,9 +232,9 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
 pub(crate) fn in_order<'a>(page: &Page<'a>, places: &[Place]) -> Vec<(Place, &'a SpringSummary)> {
     let mut found = Vec::new();
     for (index, building) in page.summary.buildings.iter().enumerate() {
-        let own: Vec<&Place> = places.iter().filter(|p| p.building == index).collect();
+        let places: Vec<&Place> = places.iter().filter(|p| p.building == index).collect();
         for spring in &building.hinges.list {
-            let place = own.iter().find(|place| place.index == spring.index);
+            let place = places.iter().find(|place| place.index == spring.index);
             if let Some(place) = place {
                 found.push((**place, spring));
             }
@@ -296,7 +297,7 @@ pub(crate) fn outline(backbone: &Backbone, reach: [f64; 2]) -> Vec<[f64; 2]> {
 /// Names a place, its building first where there are several.
 pub(crate) fn name(page: &Page, place: &Place) -> String {
     let building = &page.model.buildings[place.building];
-    let own = match &building.structure {
+    let label = match &building.structure {
         Structure::Tiers(tiers) => {
             let frames = tiers.frames.iter().map(|frame| frame.name.clone());
             place
@@ -306,9 +307,9 @@ pub(crate) fn name(page: &Page, place: &Place) -> String {
         _ => place.at.to_string(),
     };
     if page.model.buildings.len() > 1 {
-        format!("{}, {own}", building.name)
+        format!("{}, {label}", building.name)
     } else {
-        own
+        label
     }
 }
 
@@ -337,14 +338,14 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     })
 }
 
-fn sentence(model: &Building, own: &BuildingSummary) -> String {
-    let all = damage(Some(model), own);
+fn sentence(model: &Building, building: &BuildingSummary) -> String {
+    let all = damage(Some(model), building);
     let all: Vec<String> = all.iter().map(Damage::sentence).collect();
-    let residual = own.response.residual_roof_displacement_m.abs();
+    let residual = building.response.residual_roof_displacement_m.abs();
     message::damage_of_building(
-        &own.name,
+        &building.name,
         all.join("; "),
-        format::energy(own.hinges.dissipated_j),
+        format::energy(building.hinges.dissipated_j),
         message::residual_displacement_of_the_roof(format::millimetres(residual)),
     )
 }

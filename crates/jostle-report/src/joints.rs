@@ -33,7 +33,7 @@ pub(crate) fn joints(page: &Page) -> Markup {
         .summary
         .buildings
         .iter()
-        .flat_map(|own| own.floors.iter());
+        .flat_map(|building| building.floors.iter());
     let is_without_contact = floors.all(|floor| floor.without_contact.is_some());
     let mut rules = gaps.iter().flat_map(|(_, _, (_, found))| &found.rules);
     let combined = rules.any(|rule| rule.name == "SRSS");

@@ -29,7 +29,9 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         .next()
         .and_then(|capacity| ShearRule::from_name(capacity.rule));
     let members = page.summary.buildings.iter().flat_map(|b| &b.members);
-    let in_space = members.flat_map(sections).any(|own| own.across.is_some());
+    let in_space = members
+        .flat_map(sections)
+        .any(|section| section.across.is_some());
     asked.then(|| {
         html! {
             section #members {
@@ -63,19 +65,22 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 
 /// How many members are beyond their capacity, and which.
 fn verdict(page: &Page, name: &str, capacity: &CapacitySummary) -> String {
-    let place = |own: &ExceededSummary| {
-        let during = own.impact.as_ref().map_or_else(String::new, |impact| {
-            message::during_the_impact(
-                &impact.between[0],
-                &impact.between[1],
-                format::instant(impact.start_s),
-            )
-        });
-        let at = format::instant(own.at_s);
+    let place = |exceedance: &ExceededSummary| {
+        let during = exceedance
+            .impact
+            .as_ref()
+            .map_or_else(String::new, |impact| {
+                message::during_the_impact(
+                    &impact.between[0],
+                    &impact.between[1],
+                    format::instant(impact.start_s),
+                )
+            });
+        let at = format::instant(exceedance.at_s);
         message::in_at(
-            member_name(page, &own.member),
-            own.kind,
-            own.at,
+            member_name(page, &exceedance.member),
+            exceedance.kind,
+            exceedance.at,
             &at,
             &during,
         )
@@ -104,7 +109,7 @@ fn member_name(page: &Page, name: &str) -> String {
         let (line, storey) = place.split_once('.')?;
         let [line, storey] = [line.parse::<usize>().ok()?, storey.parse::<usize>().ok()?];
         let mut buildings = page.model.buildings.iter();
-        match &buildings.find(|own| own.name == of)?.structure {
+        match &buildings.find(|building| building.name == of)?.structure {
             Structure::Frame(frame) => frame.wall([storey - 1, line - 1])?,
             _ => return None,
         };
@@ -139,17 +144,25 @@ fn amplification(value: Option<f64>) -> Markup {
 
 /// Levels of performance that the rotations of the ends keep, rule by rule.
 fn levels(member: &MemberSummary) -> Markup {
-    let beyond = member.acceptance.iter().any(|own| own.level.is_none());
-    let texts = member.acceptance.iter().map(|own| {
-        let last = own.limits.last().map_or("", |limit| limit.level);
-        match own.level {
+    let beyond = member
+        .acceptance
+        .iter()
+        .any(|acceptance| acceptance.level.is_none());
+    let texts = member.acceptance.iter().map(|acceptance| {
+        let last = acceptance.limits.last().map_or("", |limit| limit.level);
+        match acceptance.level {
             Some(level) => level.to_owned(),
             None => message::beyond_last(last),
         }
     });
-    let title = member.acceptance.iter().map(|own| {
-        let milliradians = format::significant(own.rotation_rad * 1e3, 3);
-        message::mrad_at(own.rule, own.measure, &milliradians, own.at)
+    let title = member.acceptance.iter().map(|acceptance| {
+        let milliradians = format::significant(acceptance.rotation_rad * 1e3, 3);
+        message::mrad_at(
+            acceptance.rule,
+            acceptance.measure,
+            &milliradians,
+            acceptance.at,
+        )
     });
     let (texts, title): (Vec<_>, Vec<_>) = (texts.collect(), title.collect());
     html! {

@@ -120,7 +120,7 @@ fn sentence(page: &MotionPage) -> String {
 
 fn tiles(m: &Measures) -> Markup {
     let value = |value: f64, unit: &str| format::unit(format::significant(value, 4), unit);
-    let shown = |own: format::Shown, value: f64| format::short(own, value, 4);
+    let shown = |unit: format::Shown, value: f64| format::short(unit, value, 4);
     let at = |t: f64| message::at_at(format::unit(format::fixed(t, 2), "s"));
     let span = |[from, to]: [f64; 2]| {
         (

@@ -11,12 +11,12 @@ const MOST_ROWS: usize = 200;
 /// The section; `None` where no panel is judged.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let buildings = page.summary.buildings.iter();
-    let own = buildings.map(|building| (building, building.damaged_panels()));
-    let own: Vec<_> = own.filter(|(_, panels)| !panels.is_empty()).collect();
-    if own.is_empty() {
+    let buildings = buildings.map(|building| (building, building.damaged_panels()));
+    let buildings: Vec<_> = buildings.filter(|(_, panels)| !panels.is_empty()).collect();
+    if buildings.is_empty() {
         return None;
     }
-    let rows = own.iter().flat_map(|(building, panels)| {
+    let rows = buildings.iter().flat_map(|(building, panels)| {
         let panels = panels.iter();
         panels.map(|panel| (panel, cells(building, panel)))
     });
@@ -31,7 +31,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     Some(html! {
         section #panels {
             h2 { (message::infill_panels()) }
-            @for (building, panels) in &own { p { (sentence(&building.name, panels)) } }
+            @for (building, panels) in &buildings { p { (sentence(&building.name, panels)) } }
             p.quiet { (message::damage_by_drift()) }
             @if rows.len() > MOST_ROWS {
                 p.quiet { (message::the_first_of_in_order(MOST_ROWS, rows.len())) }
@@ -60,8 +60,8 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 
 fn sentence(name: &str, panels: &[PanelDamageSummary]) -> String {
     let counts = (1..=4).rev().filter_map(|state| {
-        let own = panels.iter().filter(|own| own.state == state).count();
-        (own > 0).then(|| message::state_in(state, own))
+        let count = panels.iter().filter(|panel| panel.state == state).count();
+        (count > 0).then(|| message::state_in(state, count))
     });
     let counts: Vec<String> = counts.collect();
     let counts = match counts.is_empty() {
@@ -73,13 +73,13 @@ fn sentence(name: &str, panels: &[PanelDamageSummary]) -> String {
 
 /// Drift, damage state, greatest compression of its struts, what they dissipated, and its ratio across its plane.
 fn cells(building: &BuildingSummary, panel: &PanelDamageSummary) -> [String; 5] {
-    let struts = building.parts.iter().filter(|own| {
-        let rest = own.name.strip_prefix(&panel.name);
+    let struts = building.parts.iter().filter(|part| {
+        let rest = part.name.strip_prefix(&panel.name);
         rest.is_some_and(|rest| rest.starts_with('.'))
     });
-    let force = struts.clone().map(|own| -own.force_min_n);
-    let dissipated: f64 = struts.clone().map(|own| own.dissipated_j).sum();
-    let across = struts.filter_map(|own| own.out_of_plane_ratio);
+    let force = struts.clone().map(|strut| -strut.force_min_n);
+    let dissipated: f64 = struts.clone().map(|strut| strut.dissipated_j).sum();
+    let across = struts.filter_map(|strut| strut.out_of_plane_ratio);
     let across = across.reduce(f64::max);
     [
         format::fixed(100.0 * panel.drift, 2),

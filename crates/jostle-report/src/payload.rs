@@ -312,7 +312,11 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
         devices: devices(page, &time, budget.loops, pack),
         walls,
         bearing: page.model.is_in_space().then(|| BearingData {
-            angle: page.motion.bearing.as_ref().map_or(0.0, |own| own.angle),
+            angle: page
+                .motion
+                .bearing
+                .as_ref()
+                .map_or(0.0, |bearing| bearing.angle),
             across: page
                 .motion
                 .across()
@@ -325,7 +329,10 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
 
 /// Number of the member of a space frame at whose end a place is, in the order of [`MemberData::all_of`], from 1.
 fn member_number(page: &Page, place: &Place) -> Option<usize> {
-    let SpringPlace::InSpace { place: own, .. } = place.at else {
+    let SpringPlace::InSpace {
+        place: space_place, ..
+    } = place.at
+    else {
         return None;
     };
     let Structure::Tiers(tiers) = &page.model.buildings[place.building].structure else {
@@ -333,7 +340,7 @@ fn member_number(page: &Page, place: &Place) -> Option<usize> {
     };
     let mut members = tiers.space_frame.as_ref()?.members.iter();
     members
-        .position(|member| member.place == own)
+        .position(|member| member.place == space_place)
         .map(|index| index + 1)
 }
 
@@ -350,7 +357,10 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
     let short = |t: f64| (t * 1e4).round() / 1e4;
     for (place, spring) in order {
         // Springs shown elsewhere are counted, but have no entry.
-        let Some(index) = places.iter().position(|own| own.spring == place.spring) else {
+        let Some(index) = places
+            .iter()
+            .position(|candidate| candidate.spring == place.spring)
+        else {
             continue;
         };
         let entry = &mut data[index];
@@ -476,10 +486,10 @@ fn outline(building: &Building) -> Outline<'_> {
         Structure::Frame(frame) => Some(frame),
         _ => None,
     };
-    let of_plane = plane.into_iter().flat_map(|own| &own.diagonals);
+    let of_plane = plane.into_iter().flat_map(|plane| &plane.diagonals);
     let of_space = in_space.into_iter().flat_map(|frame| {
-        let own = frame.diagonals.iter();
-        own.map(|own| DiagonalData::in_space(frame, own))
+        let diagonals = frame.diagonals.iter();
+        diagonals.map(|diagonal| DiagonalData::in_space(frame, diagonal))
     });
     let diagonals = of_plane.map(DiagonalData::of).chain(of_space);
     let footing = building.base.foundation;
@@ -492,16 +502,16 @@ fn outline(building: &Building) -> Outline<'_> {
         heights: building.floor_heights(),
         spans,
         tops: plane
-            .filter(|own| !own.is_regular())
+            .filter(|plane| !plane.is_regular())
             .map(Frame::tops)
             .unwrap_or_default(),
-        elevation: Some(building.base.elevation).filter(|own| *own != 0.0),
+        elevation: Some(building.base.elevation).filter(|elevation| *elevation != 0.0),
         diagonals: diagonals.collect(),
         walls: plane
-            .map(|own| own.walls.iter().map(WallData::of).collect())
+            .map(|plane| plane.walls.iter().map(WallData::of).collect())
             .unwrap_or_default(),
         isolated: building.base.isolation.is_some(),
-        footing: footing.and_then(|own| Some((own.length, own.uplift?.springs))),
+        footing: footing.and_then(|footing| Some((footing.length, footing.uplift?.springs))),
     }
 }
 
@@ -785,9 +795,9 @@ fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column
         _ => "",
     };
     for prefixes in [&["v", "r"][..], &["u"], &["c"]] {
-        let own = history.columns().iter();
-        let own = own.filter(|column| prefixes.contains(&prefix(column)));
-        wanted.extend(own.map(|column| {
+        let columns = history.columns().iter();
+        let columns = columns.filter(|column| prefixes.contains(&prefix(column)));
+        wanted.extend(columns.map(|column| {
             let (prefix, [index, floor]) = (prefix(column), column.place());
             let name = match column.owner {
                 Owner::Contact(_) => format!("{prefix}:{index}"),

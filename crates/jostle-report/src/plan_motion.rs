@@ -11,13 +11,18 @@ pub(crate) fn point_motion(
     (building, floor): (usize, usize),
     point: PlanPoint,
 ) -> Option<[Vec<f64>; 2]> {
-    let own = model.buildings.get(building)?;
-    let Structure::Tiers(tiers) = &own.structure else {
+    let model_building = model.buildings.get(building)?;
+    let Structure::Tiers(tiers) = &model_building.structure else {
         return None;
     };
     let centre = match floor.checked_sub(1) {
         Some(index) => tiers.lumped_floors().get(index)?.tier.centre,
-        None => tiers.mat(own.base.isolation?.mat_mass).tier.centre,
+        None => {
+            tiers
+                .mat(model_building.base.isolation?.mat_mass)
+                .tier
+                .centre
+        }
     };
     let arm = [point[0] - centre[0], point[1] - centre[1]];
     let turn = history.column(Column::displacement(building, floor).turning())?;

@@ -12,17 +12,20 @@ const MOST_ROWS: usize = 200;
 /// The section; `None` without limits.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let buildings = page.summary.buildings.iter();
-    let own: Vec<_> = buildings
+    let members_beyond: Vec<_> = buildings
         .filter_map(|building| Some((&building.name[..], building.rotation_levels.as_ref()?)))
         .collect();
-    if own.is_empty() {
+    if members_beyond.is_empty() {
         return None;
     }
-    let all: Vec<&MemberLevel> = own.iter().flat_map(|(_, all)| &all.list).collect();
+    let all: Vec<&MemberLevel> = members_beyond
+        .iter()
+        .flat_map(|(_, all)| &all.list)
+        .collect();
     Some(html! {
         section #rotation-levels {
             h2 { (message::levels_of_members()) }
-            @for (name, all) in &own { p { (sentence(name, all)) } }
+            @for (name, all) in &members_beyond { p { (sentence(name, all)) } }
             (table(&all))
         }
     })
@@ -73,11 +76,11 @@ fn table(all: &[&MemberLevel]) -> Markup {
 }
 
 /// Limit and instant of every level; a dash where it is not stated, or not exceeded.
-fn levels(own: &MemberLevel) -> Vec<String> {
+fn levels(member: &MemberLevel) -> Vec<String> {
     let of = |level: RotationLevel| {
-        let found = own.limits.iter().find(|own| own.level == level);
-        let limit = found.map(|own| format::significant(1e3 * own.limit_rad, 3));
-        let instant = found.and_then(|own| own.beyond_s);
+        let found = member.limits.iter().find(|limit| limit.level == level);
+        let limit = found.map(|limit| format::significant(1e3 * limit.limit_rad, 3));
+        let instant = found.and_then(|limit| limit.beyond_s);
         let cells = [limit, instant.map(|at| format::fixed(at, 3))];
         cells.map(|cell| cell.unwrap_or_else(|| format::NOTHING.to_owned()))
     };

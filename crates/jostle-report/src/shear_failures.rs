@@ -11,17 +11,17 @@ const MOST_ROWS: usize = 200;
 /// The section; `None` where no column can fail.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let buildings = page.summary.buildings.iter();
-    let own: Vec<_> = buildings
+    let buildings: Vec<_> = buildings
         .filter_map(|building| Some((&building.name[..], building.shear_failures.as_ref()?)))
         .collect();
-    if own.is_empty() {
+    if buildings.is_empty() {
         return None;
     }
-    let failed: Vec<&ShearFailure> = own.iter().flat_map(|(_, all)| &all.list).collect();
+    let failed: Vec<&ShearFailure> = buildings.iter().flat_map(|(_, all)| &all.list).collect();
     Some(html! {
         section #shear-failures {
             h2 { (message::columns_that_fail_in_shear()) }
-            @for (name, all) in &own { p { (sentence(name, all)) } }
+            @for (name, all) in &buildings { p { (sentence(name, all)) } }
             @if !failed.is_empty() { (table(&failed)) }
         }
     })
@@ -78,18 +78,18 @@ fn table(failed: &[&ShearFailure]) -> Markup {
     }
 }
 
-fn cells(own: &ShearFailure) -> [String; 5] {
+fn cells(failure: &ShearFailure) -> [String; 5] {
     [
-        format::fixed(own.failed_s, 3),
-        format::significant(format::FORCE.of(own.strength_n), 4),
-        format::significant(format::LENGTH.of(own.slip_peak_m), 3),
-        format::fixed(100.0 * own.strength_left, 0),
-        format::significant(format::ENERGY.of(own.dissipated_j), 3),
+        format::fixed(failure.failed_s, 3),
+        format::significant(format::FORCE.of(failure.strength_n), 4),
+        format::significant(format::LENGTH.of(failure.slip_peak_m), 3),
+        format::fixed(100.0 * failure.strength_left, 0),
+        format::significant(format::ENERGY.of(failure.dissipated_j), 3),
     ]
 }
 
-fn during(own: &ShearFailure) -> String {
-    own.impact.as_ref().map_or_else(
+fn during(failure: &ShearFailure) -> String {
+    failure.impact.as_ref().map_or_else(
         || format::NOTHING.to_owned(),
         |impact| {
             message::both_at_height_from(

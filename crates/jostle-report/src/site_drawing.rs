@@ -223,11 +223,16 @@ fn grid(frame: &SpaceFrame, scale: &Scale) -> Markup {
         let on_site = points.iter().map(|point| frame.on_site(*point));
         scale.path(on_site)
     };
-    let lowest = || frame.members.iter().filter(|own| own.place.storey() == 0);
+    let lowest = || {
+        frame
+            .members
+            .iter()
+            .filter(|member| member.place.storey() == 0)
+    };
     let at = |[x, y]: [usize; 2]| [frame.lines_x[x], frame.lines_y[y]];
-    let column = |own: &SpaceMember| {
-        let [x, y] = at(own.place.crossings()[0]);
-        let [a, b] = own.section.size.map(|side| 0.5 * side);
+    let column = |member: &SpaceMember| {
+        let [x, y] = at(member.place.crossings()[0]);
+        let [a, b] = member.section.size.map(|side| 0.5 * side);
         path(&[
             [x - a, y - b],
             [x + a, y - b],
@@ -235,7 +240,7 @@ fn grid(frame: &SpaceFrame, scale: &Scale) -> Markup {
             [x - a, y + b],
         ])
     };
-    let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+    let is_column = |member: &SpaceMember| matches!(member.place, SpacePlace::Column { .. });
     html! {
         @for (number, (line, name, place)) in numbered {
             polyline.axis stroke-dasharray="6 3 1 3" points=(path(&line)) { title { (message::grid_line(name, number + 1, format::plain(format::HEIGHT.of(place), 4))) } }
@@ -441,8 +446,8 @@ fn labels(scale: &Scale, places: &[SitePlace], taken: &mut Vec<[f64; 4]>) -> Mar
         });
         let inside = |b: &[f64; 4]| b[0] > 2.0 && b[2] < WIDTH - 2.0 && b[1] > 28.0;
         let free = |at: &[f64; 2]| {
-            let own = box_of(&words, *at);
-            inside(&own) && !taken.iter().any(|other| overlaps(&own, other))
+            let rectangle = box_of(&words, *at);
+            inside(&rectangle) && !taken.iter().any(|other| overlaps(&rectangle, other))
         };
         let tries: Vec<[f64; 2]> = tries.collect();
         let at = tries

@@ -41,9 +41,11 @@ impl SitePlace {
         let mut places = Vec::new();
         let mut contacts = system.contacts.iter().peekable();
         while let Some(first) = contacts.next() {
-            let Some(own) = first.plan else { continue };
-            let same = |next: &&Contact| next.plan.is_some_and(|plan| plan.face == own.face);
-            let (mut last, mut gap) = (own.at, [first.width; 2]);
+            let Some(first_plan) = first.plan else {
+                continue;
+            };
+            let same = |next: &&Contact| next.plan.is_some_and(|plan| plan.face == first_plan.face);
+            let (mut last, mut gap) = (first_plan.at, [first.width; 2]);
             while let Some(next) = contacts.next_if(same) {
                 last = next.plan.map_or(last, |plan| plan.at);
                 gap = [gap[0].min(next.width), gap[1].max(next.width)];
@@ -58,11 +60,11 @@ impl SitePlace {
                     gap_index: first.gap,
                     between: [a, b],
                     floors: vec![system.floors_of(&first.ports)],
-                    kind: own.kind,
-                    parts: own.parts,
-                    normal: own.normal,
-                    middle: [0, 1].map(|axis| 0.5 * (own.at[axis] + last[axis])),
-                    overlap: own.overlap,
+                    kind: first_plan.kind,
+                    parts: first_plan.parts,
+                    normal: first_plan.normal,
+                    middle: [0, 1].map(|axis| 0.5 * (first_plan.at[axis] + last[axis])),
+                    overlap: first_plan.overlap,
                     gap,
                     peak_force: 0.0,
                     slip: None,
@@ -75,9 +77,9 @@ impl SitePlace {
     /// Those of a run, with their forces.
     pub(crate) fn of_run(model: &Model, summary: &Summary) -> Vec<Self> {
         let mut places = Vec::new();
-        for (index, (gap, own)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
+        for (index, (gap, model_gap)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
             for contact in &gap.contacts {
-                let (Some(plan), [Some(a), Some(b)]) = (contact.in_plan, own.between) else {
+                let (Some(plan), [Some(a), Some(b)]) = (contact.in_plan, model_gap.between) else {
                     continue;
                 };
                 let kind = match plan.overlap_m > 0.0 {
@@ -135,7 +137,9 @@ impl SitePlace {
                 words.collect::<Vec<_>>().join(", ")
             }
             pairs => {
-                let word = |own: Option<usize>| own.map_or("–".to_owned(), |own| own.to_string());
+                let word = |number: Option<usize>| {
+                    number.map_or("–".to_owned(), |number| number.to_string())
+                };
                 let words = pairs
                     .iter()
                     .map(|[a, b]| format!("{} | {}", word(*a), word(*b)));
@@ -206,8 +210,8 @@ fn add(places: &mut Vec<SitePlace>, place: SitePlace) {
             ];
             known.peak_force = known.peak_force.max(place.peak_force);
             known.slip = match (known.slip, place.slip) {
-                (Some(own), Some(other)) => Some(own.max(other)),
-                (own, other) => own.or(other),
+                (Some(slip), Some(other)) => Some(slip.max(other)),
+                (slip, other) => slip.or(other),
             };
             known.floors.extend(place.floors);
         }

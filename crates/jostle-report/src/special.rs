@@ -27,14 +27,14 @@ pub(crate) fn facts(building: &Building) -> Facts {
             false => message::rigid().into(),
         };
         let shears = |section: &jostle::Section| section.shear_rigidity.is_some();
-        if frame.all_columns().any(|(_, own)| shears(own)) {
+        if frame.all_columns().any(|(_, section)| shears(section)) {
             let row = |storey: usize| {
                 let all = (0..frame.lines()).map(|line| frame.column(storey, line).map(of));
                 all.collect()
             };
             facts.push((message::columns_ga(), by_place(storeys, row, text)));
         }
-        if frame.all_beams().any(|(_, own)| shears(own)) {
+        if frame.all_beams().any(|(_, section)| shears(section)) {
             let row = |floor: usize| {
                 let all = (0..frame.spans.len()).map(|bay| frame.beam(floor, bay).map(of));
                 all.collect()
@@ -62,7 +62,9 @@ fn base(base: &Base) -> Facts {
             true => message::m_deep(metres(foundation.embedment)),
             false => String::new(),
         };
-        let lifts = foundation.uplift.map(|own| message::lifts_off(own.springs));
+        let lifts = foundation
+            .uplift
+            .map(|uplift| message::lifts_off(uplift.springs));
         let lifts = lifts.unwrap_or_default();
         return vec![
             (
@@ -180,15 +182,16 @@ pub(crate) fn joint(joint: &Joint) -> String {
 
 /// The reinforced sections of a building.
 pub(crate) fn sections(page: &Page, building: usize) -> Facts {
-    let own = page.sections.iter().filter(|s| s.building == building);
-    own.map(|known| {
-        let name = match known.member {
-            Member::Column => message::column_section(),
-            Member::Beam => message::beam_section(),
-        };
-        (name, section(known))
-    })
-    .collect()
+    let sections = page.sections.iter().filter(|s| s.building == building);
+    sections
+        .map(|known| {
+            let name = match known.member {
+                Member::Column => message::column_section(),
+                Member::Beam => message::beam_section(),
+            };
+            (name, section(known))
+        })
+        .collect()
 }
 
 fn section(known: &ReinforcedSection) -> String {

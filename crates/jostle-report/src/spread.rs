@@ -83,7 +83,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 }
 
 /// A result with its range; values of this run, the least and the greatest.
-fn row(name: &str, [own, least, greatest]: [f64; 3], text: impl Fn(f64) -> String) -> Markup {
+fn row(name: &str, [result, least, greatest]: [f64; 3], text: impl Fn(f64) -> String) -> Markup {
     let share = |value: f64| {
         let share = if greatest > 0.0 {
             value / greatest
@@ -100,8 +100,8 @@ fn row(name: &str, [own, least, greatest]: [f64; 3], text: impl Fn(f64) -> Strin
     html! {
         tr {
             th scope="row" { (name) }
-            td.number { (text(own)) } td.number { (text(least)) } td.number { (text(greatest)) }
-            td { span.range aria-hidden="true" { i style=(format!("left:{};width:{width}", share(least))) {} b style=(format!("left:{}", share(own))) {} } }
+            td.number { (text(result)) } td.number { (text(least)) } td.number { (text(greatest)) }
+            td { span.range aria-hidden="true" { i style=(format!("left:{};width:{width}", share(least))) {} b style=(format!("left:{}", share(result))) {} } }
         }
     }
 }

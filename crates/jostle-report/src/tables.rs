@@ -155,7 +155,9 @@ fn peaks_shown(
         let mut floors = building.floors.iter();
         floors.any(|floor| quantity.value(&floor.response).is_some())
     };
-    let quantities = FloorResponse::QUANTITIES.iter().filter(move |own| has(own));
+    let quantities = FloorResponse::QUANTITIES
+        .iter()
+        .filter(move |quantity| has(quantity));
     quantities.filter_map(|quantity| Some((quantity, quantity.shown?)))
 }
 

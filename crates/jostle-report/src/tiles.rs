@@ -64,7 +64,10 @@ fn tile(name: impl Into<String>, value: impl Into<String>, note: impl Into<Strin
 
 /// The gap that is needed beside that which there is; of many gaps, the one that lacks most.
 fn gaps(summary: &Summary) -> Vec<Tile> {
-    let lacking = |gap: &GapSummary| gap.closing_without_contact_m.map(|own| own - width(gap));
+    let lacking = |gap: &GapSummary| {
+        gap.closing_without_contact_m
+            .map(|closing| closing - width(gap))
+    };
     let all = summary.gaps.iter();
     let shown: Vec<&GapSummary> = if summary.gaps.len() <= MOST_EACH {
         all.collect()
@@ -139,7 +142,10 @@ fn drift(summary: &Summary) -> Vec<Tile> {
         let value = format::unit(format::fixed(100.0 * of(floor), 2), "%");
         Some(tile(name, value, note))
     };
-    let yields = summary.buildings.iter().any(|own| own.hinges.yielded > 0);
+    let yields = summary
+        .buildings
+        .iter()
+        .any(|building| building.hinges.yielded > 0);
     let left = yields.then(|| of(message::residual_drift_of_all(), &residual));
     let peak = of(message::greatest_drift(), &FloorSummary::greatest_drift);
     peak.into_iter().chain(left.flatten()).collect()
@@ -154,8 +160,8 @@ fn members(summary: &Summary) -> Option<Tile> {
     let worst = rated
         .clone()
         .max_by(|a, b| a.1.worst.ratio.total_cmp(&b.1.worst.ratio))?;
-    let (beyond, all) = rated.fold((0, 0), |(beyond, all), (_, own)| {
-        (beyond + own.exceeded, all + own.rated)
+    let (beyond, all) = rated.fold((0, 0), |(beyond, all), (_, capacity)| {
+        (beyond + capacity.exceeded, all + capacity.rated)
     });
     let member = &worst.1.worst;
     let ratio = format::fixed(member.ratio, 2);
@@ -175,7 +181,10 @@ fn struck_column(summary: &Summary) -> Option<Tile> {
         let ratio = member.ratio.as_ref()?;
         Some(ratio.bending.max(ratio.shear.unwrap_or(0.0)))
     };
-    let members = summary.buildings.iter().flat_map(|own| &own.members);
+    let members = summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.members);
     let struck = members.filter(|member| hardest(member) > 0.0);
     let worst = struck.max_by(|a, b| {
         let of = |member| (ratio(member).unwrap_or(0.0), hardest(member));
@@ -199,18 +208,24 @@ fn struck_column(summary: &Summary) -> Option<Tile> {
 fn damaged(page: &Page) -> Vec<Tile> {
     let buildings = page.model.buildings.iter().zip(&page.summary.buildings);
     let all: Vec<(&str, Damage)> = buildings
-        .flat_map(|(model, own)| {
-            let found = damage(Some(model), own).into_iter();
-            found.map(|one| (&own.name[..], one))
+        .flat_map(|(model, summary)| {
+            let found = damage(Some(model), summary).into_iter();
+            found.map(|one| (&summary.name[..], one))
         })
         .collect();
     let worst = |one: &Damage| {
-        let same = all.iter().filter(|(_, own)| own.name == one.name);
-        same.max_by_key(|(_, own)| own.count[0])
-            .is_some_and(|(_, own)| own == one)
+        let same = all
+            .iter()
+            .filter(|(_, candidate)| candidate.name == one.name);
+        same.max_by_key(|(_, damage)| damage.count[0])
+            .is_some_and(|(_, other)| other == one)
     };
-    let few =
-        |one: &Damage| all.iter().filter(|(_, own)| own.name == one.name).count() <= MOST_EACH;
+    let few = |one: &Damage| {
+        all.iter()
+            .filter(|(_, candidate)| candidate.name == one.name)
+            .count()
+            <= MOST_EACH
+    };
     let shown = all.iter().filter(|(_, one)| few(one) || worst(one));
     let tiles = shown.map(|(name, one)| {
         let [some, all] = one.count;
@@ -238,8 +253,8 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
         return vec![tile(message::impacts_title(), message::none(), "")];
     }
     let contacts = summary.gaps.iter().flat_map(|gap| {
-        let own = gap.contacts.iter();
-        own.map(move |contact| (gap, contact))
+        let contacts = gap.contacts.iter();
+        contacts.map(move |contact| (gap, contact))
     });
     let hardest = contacts.max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
     let force = hardest.map_or(0.0, |(_, contact)| contact.peak_force_n);

@@ -64,9 +64,14 @@ pub(crate) fn is_outside(building: &BuildingSummary) -> bool {
 
 /// What stands above results that are outside the model; `None` within it.
 pub(crate) fn outside(summary: &Summary) -> Option<String> {
-    let buildings = summary.buildings.iter().filter(|own| is_outside(own));
+    let buildings = summary
+        .buildings
+        .iter()
+        .filter(|building| is_outside(building));
     let found: Vec<String> = buildings
-        .map(|own| message::drift_of(&own.name, format::percent(own.greatest_drift())))
+        .map(|building| {
+            message::drift_of(&building.name, format::percent(building.greatest_drift()))
+        })
         .collect();
     let limit = format::percent(OUTSIDE_DRIFT);
     (!found.is_empty()).then(|| message::results_are_outside(found.join(", "), limit))

@@ -42,17 +42,17 @@ pub(crate) fn walls(page: &Page) -> Vec<SceneWall> {
             continue;
         };
         // The building stands on the other side of the joint, and the wall on the other side of the building.
-        let own = 1 - side;
-        let building = between[own];
+        let opposite = 1 - side;
+        let building = between[opposite];
         let known = walls.iter_mut().find(|known| {
-            let same = known.beside[own] == building;
-            let free = known.beside[own].is_none();
-            known.side == wall && (same || free && adjacent(building, known.beside[side], own))
+            let same = known.beside[opposite] == building;
+            let free = known.beside[opposite].is_none();
+            known.side == wall && (same || free && adjacent(building, known.beside[side], opposite))
         });
         match known {
             Some(known) => {
-                known.beside[own] = building;
-                known.widths[own] = match (known.widths[own], width) {
+                known.beside[opposite] = building;
+                known.widths[opposite] = match (known.widths[opposite], width) {
                     (Some(a), Some(b)) => Some(a.min(b)),
                     (a, b) => a.or(b),
                 };
@@ -71,8 +71,8 @@ pub(crate) fn walls(page: &Page) -> Vec<SceneWall> {
                     on_site: wall.is_some_and(|wall| stands_on_site(page.model, wall)),
                     side: wall,
                 };
-                new.beside[own] = building;
-                new.widths[own] = width;
+                new.beside[opposite] = building;
+                new.widths[opposite] = width;
                 walls.push(new);
             }
         }
@@ -89,10 +89,10 @@ impl SceneWall {
     ) -> [Option<usize>; 2] {
         let mut found = [None; 2];
         if let Some((side, wall)) = wall_side(model, between) {
-            let own = 1 - side;
-            found[side] = walls
-                .iter()
-                .position(|known| known.side == wall && known.beside[own] == between[own]);
+            let opposite = 1 - side;
+            found[side] = walls.iter().position(|known| {
+                known.side == wall && known.beside[opposite] == between[opposite]
+            });
         }
         found
     }
@@ -113,13 +113,13 @@ pub(crate) fn stands_on_site(model: &Model, side: usize) -> bool {
 
 /// Whether a building is the neighbour of another on a side.
 fn adjacent(building: Option<usize>, other: Option<usize>, side: usize) -> bool {
-    let (Some(own), Some(other)) = (building, other) else {
+    let (Some(one), Some(other)) = (building, other) else {
         return false;
     };
     if side == 0 {
-        own + 1 == other
+        one + 1 == other
     } else {
-        other + 1 == own
+        other + 1 == one
     }
 }
 

@@ -29,12 +29,12 @@ impl Prepared {
 }
 
 /// The entries that a file has.
-fn title_block(own: &TitleBlock) -> Vec<(TitleBlockPart, &str)> {
+fn title_block(block: &TitleBlock) -> Vec<(TitleBlockPart, &str)> {
     let parts = [
-        (TitleBlockPart::Project, &own.project),
-        (TitleBlockPart::Client, &own.client),
-        (TitleBlockPart::Author, &own.author),
-        (TitleBlockPart::Date, &own.date),
+        (TitleBlockPart::Project, &block.project),
+        (TitleBlockPart::Client, &block.client),
+        (TitleBlockPart::Author, &block.author),
+        (TitleBlockPart::Date, &block.date),
     ];
     let mut stated = Vec::new();
     for (part, text) in parts {
@@ -61,7 +61,7 @@ fn shape_from(mode: &Mode, mat: Option<usize>) -> Vec<f64> {
     let floors = floor_shape(mode);
     let pairs = floors.iter().zip(&mode.floors);
     let scale = pairs.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    let scale = scale.map_or(0.0, |(scaled, own)| scaled / own);
+    let scale = scale.map_or(0.0, |(scaled, unscaled)| scaled / unscaled);
     let mat = mat.map(|dof| scale * mode.shape[dof]);
     mat.into_iter().chain(floors).collect()
 }

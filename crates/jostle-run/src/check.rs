@@ -333,8 +333,8 @@ fn describe(
         describe_building(text, building, &model.buildings[index], &kind)?;
         match &model.buildings[index].structure {
             Structure::Frame(frame) => {
-                let own = stated.buildings.get(index);
-                let is_stated = own.is_some_and(|own| own.axial);
+                let building = stated.buildings.get(index);
+                let is_stated = building.is_some_and(|building| building.axial);
                 let on_soil = model.buildings[index].base.foundation.is_some();
                 let why = axial_of_columns(frame, Some([is_stated, on_soil]));
                 writeln!(text, "  {why}")?;
@@ -343,24 +343,24 @@ fn describe(
             Structure::Tiers(tiers) => {
                 // Frames that are alike share a line.
                 let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
-                for own in &tiers.frames {
-                    let line = axial_of_columns(&own.frame, None) + &members(&own.frame);
+                for frame in &tiers.frames {
+                    let line = axial_of_columns(&frame.frame, None) + &members(&frame.frame);
                     match lines.iter_mut().find(|(known, _)| *known == line) {
-                        Some((_, names)) => names.push(&own.name),
-                        None => lines.push((line, vec![&own.name])),
+                        Some((_, names)) => names.push(&frame.name),
+                        None => lines.push((line, vec![&frame.name])),
                     }
                 }
                 for (line, names) in lines {
                     writeln!(text, "  {}: {line}", names.join(", "))?;
                 }
-                for own in tiers
+                for frame in tiers
                     .frames
                     .iter()
-                    .filter(|own| !own.frame.walls.is_empty())
+                    .filter(|frame| !frame.frame.walls.is_empty())
                 {
-                    let walls = walls(&own.frame);
+                    let walls = walls(&frame.frame);
                     for line in walls.lines() {
-                        writeln!(text, "  {}: {}", own.name, line.trim_start())?;
+                        writeln!(text, "  {}: {}", frame.name, line.trim_start())?;
                     }
                 }
             }
@@ -371,12 +371,12 @@ fn describe(
         }
         if let Some(mat) = building.discretization.mat {
             describe_bearings(text, &mat)?;
-            if let Some(own) = &building.mat_in_plan {
+            if let Some(plan_mat) = &building.mat_in_plan {
                 let given = matches!(
                     &model.buildings[index].structure,
                     Structure::Tiers(tiers) if !tiers.bearings.is_empty()
                 );
-                describe_bearing_places(text, &own.bearings, mat.weight, given)?;
+                describe_bearing_places(text, &plan_mat.bearings, mat.weight, given)?;
             }
         }
         if let Some(foundation) = building.foundation {
@@ -518,13 +518,13 @@ fn describe(
         }
     }
     for (index, link) in model.links.iter().enumerate() {
-        let own = system.links.iter().filter(|element| element.link == index);
+        let links = system.links.iter().filter(|element| element.link == index);
         // Inside a building the base is no column.
         let sides = match link.is_inside() {
             true => [None; 2],
             false => beside(model, link.between),
         };
-        let heights: Vec<String> = own
+        let heights: Vec<String> = links
             .map(|element| {
                 let floors = system.floors_of(&element.ports);
                 height(element.height, floors, sides)
@@ -565,7 +565,7 @@ fn parameters(link: &jostle::Link) -> String {
         | LinkLaw::Cable { .. }
         | LinkLaw::Stopper { .. } => 1.0,
     };
-    let (mut stiffness, mut own) = (link.stiffness, Vec::new());
+    let (mut stiffness, mut limits) = (link.stiffness, Vec::new());
     match link.law {
         LinkLaw::Linear | LinkLaw::Viscous { .. } | LinkLaw::Maxwell => {}
         LinkLaw::Friction {
@@ -573,12 +573,12 @@ fn parameters(link: &jostle::Link) -> String {
             stick_stiffness,
         } => {
             stiffness = stick_stiffness;
-            own.push(format!("slip at {}", FORCE.text(slip_force, 1)));
+            limits.push(format!("slip at {}", FORCE.text(slip_force, 1)));
         }
         LinkLaw::Yielding(hysteresis) => {
             let backbone = hysteresis.backbone();
             stiffness = backbone.initial();
-            own.push(match hysteresis.rule() {
+            limits.push(match hysteresis.rule() {
                 HysteresisRule::Stop { .. } => "force on one side alone".to_owned(),
                 rule => {
                     let one_sided = match backbone.open_side() {
@@ -590,8 +590,8 @@ fn parameters(link: &jostle::Link) -> String {
                 }
             });
         }
-        LinkLaw::Cable { slack } => own.push(format!("a slack of {}", LENGTH.text(slack, 1))),
-        LinkLaw::Stopper { gap } => own.push(format!("a gap of {}", LENGTH.text(gap, 1))),
+        LinkLaw::Cable { slack } => limits.push(format!("a slack of {}", LENGTH.text(slack, 1))),
+        LinkLaw::Stopper { gap } => limits.push(format!("a gap of {}", LENGTH.text(gap, 1))),
     }
     let dashpot = match exponent == 1.0 {
         true => prefixed(link.damping, "N·s/m", 4),
@@ -603,7 +603,7 @@ fn parameters(link: &jostle::Link) -> String {
     ];
     let springs = springs.into_iter().filter(|(value, _)| *value > 0.0);
     let springs = springs.map(|(_, text)| text);
-    springs.chain(own).collect::<Vec<_>>().join(" and ")
+    springs.chain(limits).collect::<Vec<_>>().join(" and ")
 }
 
 /// Number of faces and corners.
@@ -623,9 +623,9 @@ fn describe_places(
     gap: usize,
     places: &[SitePlace],
 ) -> std::fmt::Result {
-    let own = places.iter().enumerate();
-    let own = own.filter(|(_, place)| place.gap_index == gap);
-    let rows: Vec<[String; 8]> = own
+    let numbered = places.iter().enumerate();
+    let numbered = numbered.filter(|(_, place)| place.gap_index == gap);
+    let rows: Vec<[String; 8]> = numbered
         .map(|(number, place)| {
             let [first, second] = place.parts_in_words(model);
             [
@@ -646,7 +646,10 @@ fn describe_places(
     let between = model.gaps[gap].between;
     let [left, right] = between.map(|side| match (side, model.wall(side)) {
         (_, Some(wall)) => &wall.name[..],
-        (Some(index), None) => model.buildings.get(index).map_or("", |own| &own.name),
+        (Some(index), None) => model
+            .buildings
+            .get(index)
+            .map_or("", |building| &building.name),
         (None, None) => "wall",
     });
     let heads = [
@@ -823,7 +826,7 @@ fn describe_building(
         || model
             .base
             .foundation
-            .is_some_and(|own| own.uplift.is_some());
+            .is_some_and(|foundation| foundation.uplift.is_some());
     let before = match (building.equations.springs.is_empty(), lifts) {
         (true, _) => "",
         (false, true) if structure_yields(model) => " before it yields or lifts off",
@@ -881,16 +884,20 @@ fn special(building: &Building) -> Vec<String> {
         if !dashpots.is_empty() {
             lines.push(format!("base with dashpots: {dashpots}"));
         }
-        if let Some(own) = &base.across {
+        if let Some(base_across) = &base.across {
             let across = list(&[
-                ("rotation", own.rotational_stiffness, "N·m/rad"),
-                ("sideways", own.horizontal_stiffness, "N/m"),
+                ("rotation", base_across.rotational_stiffness, "N·m/rad"),
+                ("sideways", base_across.horizontal_stiffness, "N/m"),
                 (
                     "dashpot of rotation",
-                    Some(own.rotational_damping),
+                    Some(base_across.rotational_damping),
                     "N·m·s/rad",
                 ),
-                ("dashpot sideways", Some(own.horizontal_damping), "N·s/m"),
+                (
+                    "dashpot sideways",
+                    Some(base_across.horizontal_damping),
+                    "N·s/m",
+                ),
             ]);
             lines.push(format!("base across: {across}"));
         }
@@ -905,8 +912,10 @@ fn special(building: &Building) -> Vec<String> {
         lines.push("P-Delta included, from the weight above".into());
     }
     if let Structure::Frame(frame) = &building.structure {
-        let columns = frame.all_columns().filter_map(|own| own.1.shear_rigidity);
-        let beams = frame.all_beams().filter_map(|own| own.1.shear_rigidity);
+        let columns = frame
+            .all_columns()
+            .filter_map(|column| column.1.shear_rigidity);
+        let beams = frame.all_beams().filter_map(|beam| beam.1.shear_rigidity);
         let shear = list(&[
             ("columns from", columns.min_by(f64::total_cmp), "N"),
             ("beams from", beams.min_by(f64::total_cmp), "N"),

@@ -14,7 +14,9 @@ const SHOWN: usize = 3;
 /// # Errors
 /// As the text that is written to.
 pub fn write_findings(text: &mut impl Write, findings: &[Finding], rest: &str) -> std::fmt::Result {
-    let shown = findings.iter().filter(|own| own.grade >= Grade::Note);
+    let shown = findings
+        .iter()
+        .filter(|finding| finding.grade >= Grade::Note);
     for finding in shown.clone().take(SHOWN) {
         writeln!(text, "{}", line(finding))?;
     }

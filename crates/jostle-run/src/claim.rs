@@ -75,7 +75,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let place = |found: std::fs::Metadata| (found.dev(), found.ino());
     match (file.metadata(), std::fs::metadata(path)) {
-        (Ok(own), Ok(there)) => place(own) == place(there),
+        (Ok(metadata), Ok(there)) => place(metadata) == place(there),
         (_, Err(error)) => error.kind() != ErrorKind::NotFound,
         _ => true,
     }
@@ -96,16 +96,16 @@ mod tests {
     fn a_folder_is_claimed_once_and_leftovers_go() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path();
-        let own = path.join(format!("{}own.part", jostle_io::part_prefix()));
+        let leftover = path.join(format!("{}own.part", jostle_io::part_prefix()));
         // No process has this number.
         let dead = path.join(".jostle-4294967295-dead.part");
         std::fs::create_dir(&dead).expect("a folder");
-        for file in [&own, &path.join("summary.json"), &dead.join("x")] {
+        for file in [&leftover, &path.join("summary.json"), &dead.join("x")] {
             std::fs::write(file, "x").expect("a file");
         }
         let first = FolderClaim::new(path).expect("free");
         assert!(!cfg!(target_os = "linux") || !dead.exists());
-        assert!(own.exists() && path.join("summary.json").exists());
+        assert!(leftover.exists() && path.join("summary.json").exists());
         let second = FolderClaim::new(path).expect_err("taken").to_string();
         assert!(second.contains("another run"), "{second}");
         drop(first);

@@ -184,8 +184,8 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
             )));
         }
         let numbers = law.between(masses[0], masses[1]);
-        if let (ForceLaw::Formula(own), LawKind::Formula(text)) = (numbers, kind)
-            && let Some(problem) = own.fault()
+        if let (ForceLaw::Formula(formula), LawKind::Formula(text)) = (numbers, kind)
+            && let Some(problem) = formula.fault()
         {
             return Err(RunError::Argument(format!(
                 "--formula \"{text}\" {problem}"
@@ -205,7 +205,7 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
     }
     let dashpot = laws
         .first()
-        .map_or_else(String::new, |own| dashpot_words(own, masses));
+        .map_or_else(String::new, |law| dashpot_words(law, masses));
     let stiffnesses = dashpot
         + &format!(
             "Stiffness {:.4e} {} for the Hertz family, {:.4e} {} for the others: the same secant at the greatest elastic Hertz indentation.",
@@ -214,7 +214,7 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
             STIFFNESS.of(stiffness.linear),
             STIFFNESS.name()
         );
-    let by_restitution = laws.iter().any(|own| !own.law.kind.has_given_constants());
+    let by_restitution = laws.iter().any(|law| !law.law.kind.has_given_constants());
     Ok(Collisions {
         masses,
         speed,
@@ -252,11 +252,11 @@ fn given_dashpot(
 }
 
 /// What a given dashpot stands for between these masses \[kg\]; empty without one.
-fn dashpot_words(own: &CollidedLaw, masses: [f64; 2]) -> String {
-    let LawKind::Dashpot(dashpot) = own.law.kind else {
+fn dashpot_words(law: &CollidedLaw, masses: [f64; 2]) -> String {
+    let LawKind::Dashpot(dashpot) = law.law.kind else {
         return String::new();
     };
-    let numbers = own.law.between(masses[0], masses[1]);
+    let numbers = law.law.between(masses[0], masses[1]);
     let ratio = numbers.damping_ratio(effective_mass(masses[0], masses[1]));
     let ratio = ratio.unwrap_or_default();
     format!(
@@ -388,14 +388,14 @@ mod tests {
         let mass = 1e5 * 7e4 / 1.7e5_f64;
         let ratio = 1.1e6 / (2.0 * (2e8 * mass).sqrt());
         let due = (-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
-        let own = &found.laws[0];
-        assert!((own.collision.realised_restitution() - due).abs() < 1e-9);
+        let law = &found.laws[0];
+        assert!((law.collision.realised_restitution() - due).abs() < 1e-9);
         assert!(
             found.stiffnesses.contains("restitution 0.5415"),
             "{}",
             found.stiffnesses
         );
-        let json = collision_json(own);
+        let json = collision_json(law);
         assert_eq!(json["damping_n_s_m"], 1.1e6);
         assert_eq!(json["restitution"], Value::Null);
     }

@@ -196,8 +196,8 @@ fn of_contact(
     system: &System,
     gap: usize,
 ) -> Option<ContactAdvice> {
-    let own = system.contacts.iter().filter(|contact| contact.gap == gap);
-    let contact = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()))?;
+    let contacts = system.contacts.iter().filter(|contact| contact.gap == gap);
+    let contact = contacts.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()))?;
     let names = model.gaps[gap]
         .between
         .map(|side| system.side_name(side).to_owned());
@@ -336,22 +336,22 @@ impl Known {
 
     /// The same with the moduli that a model states for the concrete of its buildings, where no option names one.
     fn with_stated(&self, stated: [Option<f64>; 2]) -> Self {
-        let mut own = self.clone();
+        let mut copy = self.clone();
         if self.modulus_is_given {
-            return own;
+            return copy;
         }
         // A wall is as stiff as the floor beside it.
         let moduli = [stated[0].or(stated[1]), stated[1].or(stated[0])];
-        for (material, modulus) in own.material.iter_mut().zip(moduli) {
+        for (material, modulus) in copy.material.iter_mut().zip(moduli) {
             material.modulus = modulus.unwrap_or(material.modulus);
         }
         if moduli[0].is_none() {
-            own.notes.push(format!(
+            copy.notes.push(format!(
                 "E = {:.0} GPa is assumed; state it with --concrete or --modulus.",
-                1e-9 * own.material[0].modulus
+                1e-9 * copy.material[0].modulus
             ));
         }
-        own
+        copy
     }
 
     fn advise(
@@ -393,14 +393,14 @@ impl Known {
         }
         if let Some(slabs) = slabs {
             for side in [0, 1] {
-                if let (Some(mass), own) = (masses[side], slabs[side].own_mass())
-                    && mass < own
+                if let (Some(mass), slab_mass) = (masses[side], slabs[side].own_mass())
+                    && mass < slab_mass
                 {
                     notes.push(format!(
                         "The mass of {} is {}, less than the {} of its slab alone: check the size.",
                         between[side],
                         MASS.text(mass, 1),
-                        MASS.text(own, 1)
+                        MASS.text(slab_mass, 1)
                     ));
                 }
             }
@@ -549,13 +549,13 @@ fn wall_beside(rod: Rod) -> Rod {
 
 /// The first valid estimate, within all of its family.
 fn of_family(estimates: &[StiffnessEstimate], family: &str) -> Option<RangeAdvice> {
-    let own = || {
+    let estimates = || {
         estimates
             .iter()
             .filter(|estimate| estimate.family == family)
     };
-    let value = own().find(|estimate| estimate.is_valid)?.stiffness;
-    let valid = || own().filter(|estimate| estimate.is_valid);
+    let value = estimates().find(|estimate| estimate.is_valid)?.stiffness;
+    let valid = || estimates().filter(|estimate| estimate.is_valid);
     Some(RangeAdvice {
         value,
         low: valid().map(|e| e.stiffness).fold(value, f64::min),

@@ -42,10 +42,10 @@ impl Ran {
                 prepared.run_variant(&words, false, Stage::ContactSensitivity, observer)?,
             ));
         }
-        let own = self.prepared.input.model.gaps.first();
+        let first_gap = self.prepared.input.model.gaps.first();
         Ok(compare(
             summary,
-            own.map_or(1.0, |gap| gap.law.stiffness),
+            first_gap.map_or(1.0, |gap| gap.law.stiffness),
             &others,
         ))
     }
@@ -87,7 +87,7 @@ fn in_words(variant: ContactVariant) -> String {
 
 /// Compares runs with other contacts with the run itself.
 fn compare(
-    own: &Summary,
+    reference: &Summary,
     stiffness: f64,
     others: &[(ContactVariant, Vec<f64>, Summary)],
 ) -> ContactSensitivity {
@@ -104,8 +104,8 @@ fn compare(
                 .fold(0.0, f64::max),
             impact_count: summary.gaps.iter().map(|gap| gap.impact_count).sum(),
         });
-    let all = || std::iter::once(own).chain(others.iter().map(|(.., summary)| summary));
-    let gaps = own.gaps.iter().enumerate().map(|(index, gap)| {
+    let all = || std::iter::once(reference).chain(others.iter().map(|(.., summary)| summary));
+    let gaps = reference.gaps.iter().enumerate().map(|(index, gap)| {
         let forces = || all().map(|run| run.gaps[index].peak_force_n);
         let counts = || all().map(|run| run.gaps[index].impact_count);
         GapSpread {
@@ -116,26 +116,30 @@ fn compare(
             impact_count_max: counts().max().unwrap_or(0),
         }
     });
-    let buildings = own.buildings.iter().enumerate().map(|(index, building)| {
-        let others = || others.iter().map(|(.., run)| &run.buildings[index]);
-        let change = |of: fn(&FloorSummary) -> f64| {
-            others()
-                .map(|other| greatest_change(building, other, of))
-                .fold(0.0, f64::max)
-        };
-        let accelerations =
-            || all().map(|run| run.buildings[index].response.total_acceleration_peak_m_s2);
-        BuildingChange {
-            name: building.name.clone(),
-            displacement: change(|floor| floor.response.displacement_peak_m()),
-            storey_drift: change(|floor| floor.response.storey_drift_peak),
-            total_acceleration: change(|floor| floor.response.total_acceleration_peak_m_s2),
-            storey_shear: change(|floor| floor.response.storey_shear_peak_n),
-            overturning_moment: change(|floor| floor.response.overturning_moment_peak_n_m),
-            total_acceleration_min_m_s2: accelerations().fold(f64::INFINITY, f64::min),
-            total_acceleration_max_m_s2: accelerations().fold(0.0, f64::max),
-        }
-    });
+    let buildings = reference
+        .buildings
+        .iter()
+        .enumerate()
+        .map(|(index, building)| {
+            let others = || others.iter().map(|(.., run)| &run.buildings[index]);
+            let change = |of: fn(&FloorSummary) -> f64| {
+                others()
+                    .map(|other| greatest_change(building, other, of))
+                    .fold(0.0, f64::max)
+            };
+            let accelerations =
+                || all().map(|run| run.buildings[index].response.total_acceleration_peak_m_s2);
+            BuildingChange {
+                name: building.name.clone(),
+                displacement: change(|floor| floor.response.displacement_peak_m()),
+                storey_drift: change(|floor| floor.response.storey_drift_peak),
+                total_acceleration: change(|floor| floor.response.total_acceleration_peak_m_s2),
+                storey_shear: change(|floor| floor.response.storey_shear_peak_n),
+                overturning_moment: change(|floor| floor.response.overturning_moment_peak_n_m),
+                total_acceleration_min_m_s2: accelerations().fold(f64::INFINITY, f64::min),
+                total_acceleration_max_m_s2: accelerations().fold(0.0, f64::max),
+            }
+        });
     ContactSensitivity {
         variants: variants.collect(),
         gaps: gaps.collect(),
@@ -145,12 +149,12 @@ fn compare(
 
 /// Greatest change at any floor, relative to the greatest of the building.
 fn greatest_change(
-    own: &BuildingSummary,
+    building: &BuildingSummary,
     other: &BuildingSummary,
     of: fn(&FloorSummary) -> f64,
 ) -> f64 {
-    let greatest = own.floors.iter().map(of).fold(0.0, f64::max);
-    let pairs = own.floors.iter().zip(&other.floors);
+    let greatest = building.floors.iter().map(of).fold(0.0, f64::max);
+    let pairs = building.floors.iter().zip(&other.floors);
     let change = pairs
         .map(|(a, b)| (of(b) - of(a)).abs())
         .fold(0.0, f64::max);

@@ -138,15 +138,15 @@ impl RuleGap {
     /// The outcome with the greater force of both signs of the motion; `None` where outcomes were not asked for.
     #[must_use]
     pub fn worse_outcome(&self) -> Option<GapOutcome> {
-        let own = GapOutcome {
+        let outcome = GapOutcome {
             impact_count: self.impact_count?,
             peak_force_n: self.peak_force_n?,
             is_reversed: false,
         };
         let other = self.reversed_impact_count.zip(self.reversed_peak_force_n);
-        let worse = other.filter(|(_, force)| *force > own.peak_force_n);
+        let worse = other.filter(|(_, force)| *force > outcome.peak_force_n);
         Some(
-            worse.map_or(own, |(impact_count, peak_force_n)| GapOutcome {
+            worse.map_or(outcome, |(impact_count, peak_force_n)| GapOutcome {
                 impact_count,
                 peak_force_n,
                 is_reversed: true,
@@ -214,11 +214,11 @@ pub fn search_gaps(
     };
     let other = motion.reversed();
     work.expect(1 + usize::from(settings.reversed));
-    let (own, reversed) = rayon::join(
+    let (forward, reversed) = rayon::join(
         || apart(motion),
         || settings.reversed.then(|| apart(&other)).transpose(),
     );
-    let ((runs, apart), reversed) = (own?, reversed?);
+    let ((runs, apart), reversed) = (forward?, reversed?);
     let search = Search {
         model,
         motion,
@@ -331,18 +331,20 @@ const TOLD: f64 = 1e-3;
 /// gap: it needs that much less \[m\].
 fn needed(tried: &Tried, contact: usize) -> f64 {
     let contacts = &tried.system.contacts;
-    let own = contacts
+    let gap_contacts = contacts
         .iter()
-        .filter(|own| own.gap == contacts[contact].gap);
-    let least = own.map(|own| own.width).fold(f64::INFINITY, f64::min);
+        .filter(|candidate| candidate.gap == contacts[contact].gap);
+    let least = gap_contacts
+        .map(|contact| contact.width)
+        .fold(f64::INFINITY, f64::min);
     tried.outcome.peaks.closing(contact).value - (contacts[contact].width - least)
 }
 
 /// The contact of a gap that comes nearest, and its closing, at least zero \[m\].
 fn nearest_of(tried: &Tried, gap: usize) -> Option<(usize, f64)> {
     let contacts = 0..tried.system.contacts.len();
-    let own = contacts.filter(|contact| tried.system.contacts[*contact].gap == gap);
-    let closings = own.map(|contact| (contact, needed(tried, contact)));
+    let contacts = contacts.filter(|contact| tried.system.contacts[*contact].gap == gap);
+    let closings = contacts.map(|contact| (contact, needed(tried, contact)));
     let nearest = closings.max_by(|a, b| a.1.total_cmp(&b.1));
     nearest.map(|(contact, closing)| (contact, closing.max(0.0)))
 }

@@ -140,7 +140,11 @@ impl Results<'_> {
                 write_members_parquet(path, system, members, summary)
             })?;
         }
-        if summary.buildings.iter().any(|own| own.capacity.is_some()) {
+        if summary
+            .buildings
+            .iter()
+            .any(|building| building.capacity.is_some())
+        {
             staged.add(CAPACITY, |path| write_capacity_parquet(path, summary))?;
         }
         Ok(())

@@ -67,7 +67,7 @@ impl Prepared {
             record_interval: Some(
                 settings
                     .record_interval
-                    .map_or(needed, |own| own.min(needed)),
+                    .map_or(needed, |record_interval| record_interval.min(needed)),
             ),
             ..settings
         }
@@ -144,11 +144,11 @@ pub(crate) fn combine(
 ) -> (FloorSpectra, Option<String>) {
     let floors = request.floors.iter().zip(&found.floors).enumerate();
     let floors = floors.map(|(index, (&(building, floor), response))| {
-        let own = &summary.buildings[building];
+        let building = &summary.buildings[building];
         FloorSpectrum {
-            building: own.name.clone(),
+            building: building.name.clone(),
             floor,
-            height_m: own.floors[floor - 1].height_m,
+            height_m: building.floors[floor - 1].height_m,
             response: response.clone(),
             without_contact: without.map(|run| run.floors[index].clone()),
         }

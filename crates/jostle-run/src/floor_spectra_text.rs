@@ -33,8 +33,8 @@ pub(crate) fn write_floor_spectra(text: &mut String, found: &FloorSpectra) -> st
         None => ACCELERATION.text(with, 2),
     };
     for name in names {
-        let own = found.floors.iter().filter(|floor| floor.building == name);
-        let Some(floor) = own.max_by(|a, b| strength(a).total_cmp(&strength(b))) else {
+        let floors = found.floors.iter().filter(|floor| floor.building == name);
+        let Some(floor) = floors.max_by(|a, b| strength(a).total_cmp(&strength(b))) else {
             continue;
         };
         let (with, before) = (&floor.response, floor.without_contact.as_ref());

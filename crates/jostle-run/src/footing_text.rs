@@ -7,28 +7,28 @@ use jostle_io::shown::{ENERGY, FORCE, LENGTH, PRESSURE};
 
 /// Foundations and feet of columns that can lift off, one line each.
 pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
-    for own in buildings.iter().flat_map(|building| &building.parts) {
-        let Some(share) = own.lifted_share else {
+    for part in buildings.iter().flat_map(|building| &building.parts) {
+        let Some(share) = part.lifted_share else {
             continue;
         };
-        let pressure = own.pressure_max_pa.map_or_else(String::new, |pressure| {
+        let pressure = part.pressure_max_pa.map_or_else(String::new, |pressure| {
             format!(", {} over its strip", PRESSURE.text(pressure, 0))
         });
-        let settled = own.settlement_m.filter(|settled| *settled > 0.0);
+        let settled = part.settlement_m.filter(|settled| *settled > 0.0);
         let settled = settled.map_or_else(String::new, |settled| {
             format!(
                 "; the ground settles by {} and dissipates {}",
                 LENGTH.text(settled, 2),
-                ENERGY.text(own.dissipated_j, 1)
+                ENERGY.text(part.dissipated_j, 1)
             )
         });
         writeln!(
             text,
             "\n{}: rises by up to {}, off the ground {:.1} % of the time; a spring bears up to {}{pressure}{settled}",
-            own.name,
-            LENGTH.text(own.deformation_max, 2),
+            part.name,
+            LENGTH.text(part.deformation_max, 2),
             100.0 * share,
-            FORCE.text(-own.force_min_n, 0)
+            FORCE.text(-part.force_min_n, 0)
         )?;
     }
     Ok(())

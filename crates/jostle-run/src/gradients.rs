@@ -122,7 +122,7 @@ impl GradientRequest {
         };
         let found: Vec<Trial> = runs
             .par_iter()
-            .map(|own| counted(self.run(&cache, Some(*own), stop)))
+            .map(|par_iter| counted(self.run(&cache, Some(*par_iter), stop)))
             .collect();
         if stop() {
             return Ok(None);
@@ -140,7 +140,7 @@ impl GradientRequest {
                 }
             }
             for (at, (of, peak)) in base.iter().enumerate() {
-                let peaks: Vec<Option<f64>> = found.iter().map(|own| own.peak(at)).collect();
+                let peaks: Vec<Option<f64>> = found.iter().map(|trial| trial.peak(at)).collect();
                 all.extend(gradient(number, of, *peak, &peaks));
             }
         }
@@ -196,7 +196,7 @@ fn here(record: &str) -> TreeValue {
         .exists()
         .then(|| std::path::absolute(path).ok())
         .flatten();
-    TreeValue::Text(file.map_or_else(|| record.to_owned(), |own| own.display().to_string()))
+    TreeValue::Text(file.map_or_else(|| record.to_owned(), |file| file.display().to_string()))
 }
 
 /// A run with one number changed.
@@ -209,7 +209,7 @@ enum Trial {
 impl Trial {
     fn into_peaks(self) -> Result<Option<Vec<(String, f64)>>, RunError> {
         match self {
-            Self::Peaks(own) => Ok(Some(own)),
+            Self::Peaks(peaks) => Ok(Some(peaks)),
             Self::Failed(error) => Err(error),
             Self::Stopped => Ok(None),
         }
@@ -217,7 +217,7 @@ impl Trial {
 
     fn peak(&self, at: usize) -> Option<f64> {
         match self {
-            Self::Peaks(own) => own.get(at).map(|own| own.1),
+            Self::Peaks(peaks) => peaks.get(at).map(|pair| pair.1),
             _ => None,
         }
     }
@@ -234,10 +234,10 @@ fn gradient(number: &Number, of: &str, peak: f64, peaks: &[Option<f64>]) -> Opti
     let value = (4.0 * half - whole) / 3.0;
     let near = |share: f64, found: Option<f64>| {
         let straight = peak + value * share * number.value;
-        found.is_some_and(|own| (own - straight).abs() <= ACCEPTED * peak.abs())
+        found.is_some_and(|trial_peak| (trial_peak - straight).abs() <= ACCEPTED * peak.abs())
     };
     let tried = peaks[2 * STEPS.len()..].chunks(2).zip(TRIED);
-    let holds = tried.take_while(|(own, share)| near(-share, own[0]) && near(*share, own[1]));
+    let holds = tried.take_while(|(pair, share)| near(-share, pair[0]) && near(*share, pair[1]));
     let share = holds.last().map_or(0.0, |(_, share)| share);
     Some(Gradient {
         of: of.to_owned(),
@@ -256,9 +256,9 @@ fn peaks_of(summary: &Value) -> Vec<(String, f64)> {
     let mut list = |path: &str, value: &Value, inner: &[&str]| {
         let mut open = vec![(path.to_owned(), value, inner.to_vec())];
         while let Some((path, value, inner)) = open.pop() {
-            for (at, own) in value.as_array().into_iter().flatten().enumerate() {
+            for (at, element) in value.as_array().into_iter().flatten().enumerate() {
                 let path = format!("{path}[{at}]");
-                for (key, value) in own.as_object().into_iter().flatten() {
+                for (key, value) in element.as_object().into_iter().flatten() {
                     let is_peak = key.contains("_peak") && !key.ends_with("_at_s")
                         || key.starts_with("peak_") && !key.ends_with("_at_s")
                         || ["displacement_max_m", "displacement_min_m"].contains(&&key[..]);

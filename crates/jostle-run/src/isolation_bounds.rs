@@ -29,7 +29,7 @@ fn has_bounds(model: &Model) -> bool {
     let mut isolated = model
         .buildings
         .iter()
-        .filter_map(|own| own.base.isolation.as_ref());
+        .filter_map(|building| building.base.isolation.as_ref());
     isolated.any(|isolation| isolation.bounds.is_some())
 }
 
@@ -54,7 +54,10 @@ fn at_bounds(
 /// The model with all bearings at one bound.
 fn scaled(model: &Model, upper: bool) -> Model {
     let mut model = model.clone();
-    let bases = model.buildings.iter_mut().map(|own| &mut own.base);
+    let bases = model
+        .buildings
+        .iter_mut()
+        .map(|building| &mut building.base);
     for isolation in bases.filter_map(|base| base.isolation.as_mut()) {
         if let Some(bounds) = isolation.bounds {
             let factors = if upper { bounds.upper } else { bounds.lower };
@@ -67,27 +70,27 @@ fn scaled(model: &Model, upper: bool) -> Model {
 /// Puts the runs beside each other: nominal, lower, upper.
 fn compare(runs: [&Summary; 3]) -> IsolationBounds {
     let building = |index: usize| {
-        let own = runs.map(|run| &run.buildings[index]);
+        let buildings = runs.map(|run| &run.buildings[index]);
         let isolated = |of: fn(&BuildingSummary) -> f64| {
-            let has = own[0].isolation.is_some();
-            has.then(|| Bounded::new(own.map(of)))
+            let has = buildings[0].isolation.is_some();
+            has.then(|| Bounded::new(buildings.map(of)))
         };
         BoundedBuilding {
-            name: own[0].name.clone(),
+            name: buildings[0].name.clone(),
             stroke_m: isolated(stroke),
             force_n: isolated(force),
-            drift: Bounded::new(own.map(BuildingSummary::greatest_drift)),
-            storey_shear_n: Bounded::new(own.map(storey_shear)),
+            drift: Bounded::new(buildings.map(BuildingSummary::greatest_drift)),
+            storey_shear_n: Bounded::new(buildings.map(storey_shear)),
         }
     };
     let gap = |index: usize| {
-        let own = runs.map(|run| &run.gaps[index]);
-        let of = |value: fn(&GapSummary) -> f64| Bounded::new(own.map(value));
+        let gaps = runs.map(|run| &run.gaps[index]);
+        let of = |value: fn(&GapSummary) -> f64| Bounded::new(gaps.map(value));
         BoundedGap {
-            between: own[0].between.clone(),
+            between: gaps[0].between.clone(),
             peak_force_n: of(|gap| gap.peak_force_n),
             impact_count: of(|gap| gap.impact_count as f64),
-            closing_without_contact_m: needed(own),
+            closing_without_contact_m: needed(gaps),
         }
     };
     IsolationBounds {
@@ -115,13 +118,15 @@ fn storey_shear(building: &BuildingSummary) -> f64 {
 
 fn stroke(building: &BuildingSummary) -> f64 {
     let isolation = building.isolation.as_ref();
-    isolation.map_or(0.0, |own| own.displacement_peak_m())
+    isolation.map_or(0.0, |isolation| isolation.displacement_peak_m())
 }
 
 fn force(building: &BuildingSummary) -> f64 {
     let isolation = building.isolation.as_ref();
-    isolation.map_or(0.0, |own| {
-        let across = own.in_plan.map_or(0.0, |plan| plan.force_across_peak_n);
-        own.force_peak_n.max(across)
+    isolation.map_or(0.0, |isolation| {
+        let across = isolation
+            .in_plan
+            .map_or(0.0, |plan| plan.force_across_peak_n);
+        isolation.force_peak_n.max(across)
     })
 }

@@ -32,12 +32,14 @@ pub fn kn(newtons: f64) -> String {
 /// unit. Very large and very small numbers, and units of broken powers such as `N/m^1.5`, have a power of ten.
 pub(crate) fn prefixed(si: f64, unit: &str, digits: usize) -> String {
     let power = |value: f64, unit: &str| format!("{value:.*e} {unit}", digits - 1);
-    let shown = Shown::named(unit).filter(|own| own.name() != own.si_name());
-    let (value, unit) = shown.map_or((si, unit), |own| (own.of(si), own.name()));
+    let shown = Shown::named(unit).filter(|candidate| candidate.name() != candidate.si_name());
+    let (value, unit) = shown.map_or((si, unit), |shown_unit| {
+        (shown_unit.of(si), shown_unit.name())
+    });
     let exponent = format!("{value:.*e}", digits - 1);
     let exponent = exponent
         .split_once('e')
-        .and_then(|(_, own)| own.parse::<i32>().ok());
+        .and_then(|(_, exponent)| exponent.parse::<i32>().ok());
     let thousands = match (shown.is_some(), exponent) {
         _ if unit.contains('^') => return power(value, unit),
         (true, Some(-2..=5)) => 0,

@@ -11,12 +11,12 @@ use crate::numbers::counted;
 pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
         for building in buildings {
-            let own = || building.parts.iter().filter(|own| own.kind == kind);
-            let force = |own: &PartSummary| own.force_max_n.max(-own.force_min_n);
-            let Some(worst) = own().max_by(|a, b| force(a).total_cmp(&force(b))) else {
+            let parts = || building.parts.iter().filter(|part| part.kind == kind);
+            let force = |part: &PartSummary| part.force_max_n.max(-part.force_min_n);
+            let Some(worst) = parts().max_by(|a, b| force(a).total_cmp(&force(b))) else {
                 continue;
             };
-            let dissipated: f64 = own().map(|own| own.dissipated_j).sum();
+            let dissipated: f64 = parts().map(|part| part.dissipated_j).sum();
             let spent = match dissipated > 0.0 {
                 true => format!("; {} dissipated in all", ENERGY.text(dissipated, 1)),
                 false => String::new(),
@@ -32,12 +32,12 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
                 building.name,
                 FORCE.text(-worst.force_min_n, 0),
                 worst.name,
-                buckled(&own().collect::<Vec<_>>())
+                buckled(&parts().collect::<Vec<_>>())
             )?;
             if kind == "infill" {
                 write_damage(text, building)?;
             }
-            let across = own().filter_map(|own| Some((own.out_of_plane_ratio?, &own.name)));
+            let across = parts().filter_map(|part| Some((part.out_of_plane_ratio?, &part.name)));
             if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 writeln!(
                     text,
@@ -60,8 +60,8 @@ fn write_damage(text: &mut String, building: &BuildingSummary) -> std::fmt::Resu
         return Ok(());
     };
     let counts = (1..=4).rev().filter_map(|state| {
-        let own = panels.iter().filter(|own| own.state == state).count();
-        (own > 0).then(|| format!("state {state} in {own}"))
+        let count = panels.iter().filter(|panel| panel.state == state).count();
+        (count > 0).then(|| format!("state {state} in {count}"))
     });
     let counts: Vec<String> = counts.collect();
     let counts = match counts.is_empty() {
@@ -80,7 +80,7 @@ fn write_damage(text: &mut String, building: &BuildingSummary) -> std::fmt::Resu
 
 /// Which braces buckle, if any does.
 fn buckled(braces: &[&PartSummary]) -> String {
-    let when = |own: &&PartSummary| Some((own.buckled_s?, own.name.clone()));
+    let when = |part: &&PartSummary| Some((part.buckled_s?, part.name.clone()));
     let mut times: Vec<(f64, String)> = braces.iter().filter_map(when).collect();
     times.sort_by(|a, b| a.0.total_cmp(&b.0));
     match times.first() {
@@ -95,11 +95,11 @@ fn buckled(braces: &[&PartSummary]) -> String {
 
 /// Moments at the feet of walls, and what couples them.
 fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Result {
-    let moment = |own: &PartSummary| {
-        let both = [own.moment_max_n_m, own.moment_min_n_m].map(Option::unwrap_or_default);
+    let moment = |part: &PartSummary| {
+        let both = [part.moment_max_n_m, part.moment_min_n_m].map(Option::unwrap_or_default);
         both[0].max(-both[1])
     };
-    let walls = building.parts.iter().filter(|own| own.kind == "wall");
+    let walls = building.parts.iter().filter(|part| part.kind == "wall");
     if let Some(worst) = walls.max_by(|a, b| moment(a).total_cmp(&moment(b))) {
         let turned =
             [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);
@@ -124,11 +124,11 @@ fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Resul
             worst.name
         )?;
     }
-    let force = |own: &PartSummary| own.force_max_n.max(-own.force_min_n);
+    let force = |part: &PartSummary| part.force_max_n.max(-part.force_min_n);
     let beams = building
         .parts
         .iter()
-        .filter(|own| own.kind == "coupling-beam");
+        .filter(|part| part.kind == "coupling-beam");
     if let Some(worst) = beams.max_by(|a, b| force(a).total_cmp(&force(b))) {
         let turned =
             [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);

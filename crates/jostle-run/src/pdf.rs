@@ -201,7 +201,7 @@ fn wait(child: &mut Child) -> Result<String, String> {
 fn is_root() -> bool {
     // Without unsafe code: the owner of this process's own folder.
     use std::os::unix::fs::MetadataExt;
-    std::fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0)
+    std::fs::metadata("/proc/self").is_ok_and(|metadata| metadata.uid() == 0)
 }
 
 #[cfg(not(unix))]

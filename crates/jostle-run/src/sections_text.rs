@@ -13,12 +13,13 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
     for building in buildings {
         let all = &building.sections;
         let Some(worst) = all.iter().max_by(|a, b| {
-            let strain = |own: &FibreSummary| own.concrete_strain.unwrap_or(0.0);
+            let strain = |fibre: &FibreSummary| fibre.concrete_strain.unwrap_or(0.0);
             strain(a).total_cmp(&strain(b))
         }) else {
             continue;
         };
-        let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|own| has(own)).count();
+        let count =
+            |has: fn(&FibreSummary) -> bool| all.iter().filter(|section| has(section)).count();
         writeln!(
             text,
             "\nColumns of {}: bars yielded at {} of {}, concrete passed its strength at {}; {:.2} ‰ of compression in {}, under {} to {}",
@@ -40,25 +41,25 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
 fn write_limits(text: &mut String, all: &[FibreSummary]) -> std::fmt::Result {
     for limit in FibreLimit::ALL {
         let judged = || {
-            let own = all
+            let pairs = all
                 .iter()
-                .flat_map(|own| own.limits.iter().map(move |limit| (own, limit)));
-            own.filter(|(_, own)| own.limit == limit)
+                .flat_map(|fibre| fibre.limits.iter().map(move |limit| (fibre, limit)));
+            pairs.filter(|(_, candidate)| candidate.limit == limit)
         };
         let Some((worst, nearest)) = judged().max_by(|a, b| a.1.ratio().total_cmp(&b.1.ratio()))
         else {
             continue;
         };
         let what = in_words(limit);
-        let passed = judged().filter_map(|(own, limit)| Some((limit.passed_s?, own)));
+        let passed = judged().filter_map(|(end, limit)| Some((limit.passed_s?, end)));
         let first = passed.clone().min_by(|a, b| a.0.total_cmp(&b.0));
         let ends = counted(judged().count(), "end");
         match first {
-            Some((at, own)) => writeln!(
+            Some((at, end)) => writeln!(
                 text,
                 "  {what} at {} of {ends}, first at {at:.3} s in {}; strain up to {:.2} times its limit of {:.2} ‰, in {}",
                 passed.count(),
-                own.name,
+                end.name,
                 nearest.ratio(),
                 1e3 * nearest.strain_limit,
                 worst.name,

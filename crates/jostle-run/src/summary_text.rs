@@ -125,7 +125,13 @@ fn write_all(
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
     }
     let rest = match result {
-        Some(path) if path.extension().is_some_and(|own| own == "html") => "the report",
+        Some(path)
+            if path
+                .extension()
+                .is_some_and(|extension| extension == "html") =>
+        {
+            "the report"
+        }
         _ => "summary.json",
     };
     write_findings(text, &summary.checks, rest)?;
@@ -197,7 +203,7 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
     let [length, force, moment] = [LENGTH, FORCE, MOMENT].map(Shown::name);
     for building in buildings {
         let roof = building.floors.last().and_then(|floor| floor.in_plan);
-        let (Some(own), Some(roof)) = (building.in_plan, roof) else {
+        let (Some(plan), Some(roof)) = (building.in_plan, roof) else {
             continue;
         };
         writeln!(
@@ -209,9 +215,9 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
             roof.rotation_max_rad * 1e3,
             roof.rotation_min_rad * 1e3,
             mm(roof.corner_displacement_peak_m),
-            own.drift_corner_peak * 100.0,
-            kn(own.base_shear_across_peak_n),
-            MOMENT.number(own.base_torque_peak_n_m, 1)
+            plan.drift_corner_peak * 100.0,
+            kn(plan.base_shear_across_peak_n),
+            MOMENT.number(plan.base_torque_peak_n_m, 1)
         )?;
     }
     Ok(())
@@ -335,29 +341,29 @@ fn changes(building: &BuildingSummary) -> [Option<Extremes>; 3] {
 fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
     let mut between = "\n";
     for building in &summary.buildings {
-        let Some(own) = &building.foundation else {
+        let Some(foundation) = &building.foundation else {
             continue;
         };
         writeln!(
             text,
             "{between}foundation of {}: {} sway, {:.3} mrad rocking; the soil makes the first period {:.3} times as long and its damping {:.2} % instead of {:.2} %",
             building.name,
-            LENGTH.text(own.sway_peak_m, 2),
-            own.rocking_peak_rad * 1e3,
-            own.period_ratio,
-            100.0 * own.damping_ratio,
-            100.0 * own.damping_ratio_fixed
+            LENGTH.text(foundation.sway_peak_m, 2),
+            foundation.rocking_peak_rad * 1e3,
+            foundation.period_ratio,
+            100.0 * foundation.damping_ratio,
+            100.0 * foundation.damping_ratio_fixed
         )?;
-        if let Some(own) = &own.in_plan {
+        if let Some(plan) = &foundation.in_plan {
             writeln!(
                 text,
                 "  across: {} sway, {:.3} mrad rocking, {:.3} times the period, damping {:.2} % instead of {:.2} %; {:.3} mrad torsion",
-                LENGTH.text(own.sway_across_peak_m, 2),
-                own.rocking_across_peak_rad * 1e3,
-                own.period_ratio_across,
-                100.0 * own.damping_ratio_across,
-                100.0 * own.damping_ratio_across_fixed,
-                own.torsion_peak_rad * 1e3
+                LENGTH.text(plan.sway_across_peak_m, 2),
+                plan.rocking_across_peak_rad * 1e3,
+                plan.period_ratio_across,
+                100.0 * plan.damping_ratio_across,
+                100.0 * plan.damping_ratio_across_fixed,
+                plan.torsion_peak_rad * 1e3
             )?;
         }
         between = "";
@@ -392,13 +398,15 @@ fn write_storey_shears(text: &mut String, buildings: &[BuildingSummary]) -> std:
 /// Bearings and walls, one line each.
 fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     for building in &summary.buildings {
-        let Some(own) = &building.isolation else {
+        let Some(isolation) = &building.isolation else {
             continue;
         };
-        let stop = own.stop_force_peak_n.map_or_else(String::new, |force| {
-            format!(", {} on a stop", FORCE.text(force, 0))
-        });
-        if let Some(plan) = &own.in_plan {
+        let stop = isolation
+            .stop_force_peak_n
+            .map_or_else(String::new, |force| {
+                format!(", {} on a stop", FORCE.text(force, 0))
+            });
+        if let Some(plan) = &isolation.in_plan {
             writeln!(
                 text,
                 "\nmat of {}: bearing {} of {} moves by up to {}, {} in the bearings along x and {} across{stop}, {} at the end",
@@ -406,7 +414,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
                 plan.stroke_bearing,
                 plan.bearings,
                 LENGTH.text(plan.stroke_peak_m, 1),
-                FORCE.text(own.force_peak_n, 0),
+                FORCE.text(isolation.force_peak_n, 0),
                 FORCE.text(plan.force_across_peak_n, 0),
                 LENGTH.text(plan.residual_stroke_m, 1)
             )?;
@@ -416,18 +424,18 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
             text,
             "\nmat of {}: moves by up to {}, {} in the bearings{stop}, {} at the end",
             building.name,
-            LENGTH.text(own.displacement_peak_m(), 1),
-            FORCE.text(own.force_peak_n, 0),
-            LENGTH.text(own.residual_m, 1)
+            LENGTH.text(isolation.displacement_peak_m(), 1),
+            FORCE.text(isolation.force_peak_n, 0),
+            LENGTH.text(isolation.residual_m, 1)
         )?;
-        if !own.stages.is_empty() {
-            let travels = own.stages.iter();
+        if !isolation.stages.is_empty() {
+            let travels = isolation.stages.iter();
             let travels = travels.map(|stage| {
                 let travel = LENGTH.text(stage.travel_m, 0);
                 format!("{} {} of {travel}", stage.name, mm(stage.travel_peak_m))
             });
             let travels = travels.collect::<Vec<_>>().join(", ");
-            let rims = match own.reached_rims() {
+            let rims = match isolation.reached_rims() {
                 true => "; all reached their rims",
                 false => "",
             };
@@ -471,15 +479,15 @@ fn write_rotation_levels(text: &mut String, buildings: &[BuildingSummary]) -> st
             "{} beyond IO, {} beyond LS, {} beyond CP",
             levels.beyond_io, levels.beyond_ls, levels.beyond_cp
         );
-        let worst = levels.list.first().and_then(|own| {
-            let level = own.beyond?;
-            let mut limits = own.limits.iter();
-            let at = limits.find(|own| own.level == level)?.beyond_s?;
+        let worst = levels.list.first().and_then(|worst_member| {
+            let level = worst_member.beyond?;
+            let mut limits = worst_member.limits.iter();
+            let at = limits.find(|limit| limit.level == level)?.beyond_s?;
             Some(format!(
                 "; worst {}, {}: {:.2} mrad, beyond {} from {at:.3} s",
-                own.member,
-                own.at,
-                1e3 * own.rotation_rad,
+                worst_member.member,
+                worst_member.at,
+                1e3 * worst_member.rotation_rad,
                 level.name()
             ))
         });
@@ -541,26 +549,29 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
     let Some(rule) = rated().next().map(|capacity| capacity.rule) else {
         return Ok(());
     };
-    let place = |own: &ExceededSummary| {
-        let during = own.impact.as_ref().map_or_else(String::new, |impact| {
-            let [left, right] = &impact.between;
-            format!(
-                ", during the impact of {left} and {right} from {:.3} s",
-                impact.start_s
-            )
-        });
+    let place = |exceedance: &ExceededSummary| {
+        let during = exceedance
+            .impact
+            .as_ref()
+            .map_or_else(String::new, |impact| {
+                let [left, right] = &impact.between;
+                format!(
+                    ", during the impact of {left} and {right} from {:.3} s",
+                    impact.start_s
+                )
+            });
         format!(
             "{} in {} at its {}, t = {:.3} s{during}",
-            own.member, own.kind, own.at, own.at_s
+            exceedance.member, exceedance.kind, exceedance.at, exceedance.at_s
         )
     };
     let worst = rated().map(|capacity| &capacity.worst);
     let worst = worst.max_by(|a, b| a.ratio.total_cmp(&b.ratio));
     let firsts = rated().filter_map(|capacity| capacity.first.as_ref());
     let first = firsts.min_by(|a, b| a.at_s.total_cmp(&b.at_s));
-    let (all, exceeded, in_shear) = rated().fold((0, 0, 0), |(all, exceeded, shear), own| {
-        let shear = shear + own.exceeded_in_shear;
-        (all + own.rated, exceeded + own.exceeded, shear)
+    let (all, exceeded, in_shear) = rated().fold((0, 0, 0), |(all, exceeded, shear), capacity| {
+        let shear = shear + capacity.exceeded_in_shear;
+        (all + capacity.rated, exceeded + capacity.exceeded, shear)
     });
     let label = format!("capacity ({rule}):");
     match first {
@@ -616,10 +627,10 @@ fn write_friction(text: &mut String, gap: &GapSummary) -> std::fmt::Result {
         .iter()
         .filter_map(|contact| contact.in_plan?.sliding);
     let (mut peak, mut slip, mut energy) = (0.0_f64, 0.0_f64, 0.0);
-    for own in sliding {
-        peak = peak.max(own.tangential_peak_n);
-        slip = slip.max(own.slip_peak_m);
-        energy += own.friction_j;
+    for sliding in sliding {
+        peak = peak.max(sliding.tangential_peak_n);
+        slip = slip.max(sliding.slip_peak_m);
+        energy += sliding.friction_j;
     }
     if peak > 0.0 {
         writeln!(
@@ -673,7 +684,7 @@ fn write_gap(
         )?;
     }
     let [force, impulse, length] = [FORCE, IMPULSE, LENGTH].map(Shown::name);
-    let is_wall = |name: &str| name == WALL || summary.walls.iter().any(|own| own.name == name);
+    let is_wall = |name: &str| name == WALL || summary.walls.iter().any(|wall| wall.name == name);
     for contact in hit.iter().take(LISTED) {
         // Neither a floor nor a wall: a column between its floors.
         let point = |side: usize| match contact.floors[side] {
@@ -728,7 +739,10 @@ fn write_gap(
             LENGTH.text(closing, 1)
         )?;
     }
-    let floors = summary.buildings.iter().flat_map(|own| own.floors.iter());
+    let floors = summary
+        .buildings
+        .iter()
+        .flat_map(|building| building.floors.iter());
     let mut floors = floors.map(|floor| floor.without_contact.is_some());
     let has_impacts = gap.impact_count > 0 && !floors.all(|is_known| is_known);
     let computed = gap.closing_without_contact_m;
@@ -741,9 +755,13 @@ fn write_gap(
 /// The range of the peak force over other contacts, where they were run.
 fn range_beside(gap: &GapSummary, summary: &Summary) -> String {
     let spread = summary.contact_sensitivity.as_ref();
-    let own = spread.and_then(|all| all.gaps.iter().find(|own| own.between == gap.between));
-    own.map_or_else(String::new, |own| {
-        let [least, most] = [own.peak_force_min_n, own.peak_force_max_n].map(kn);
+    let gap = spread.and_then(|all| {
+        all.gaps
+            .iter()
+            .find(|candidate| candidate.between == gap.between)
+    });
+    gap.map_or_else(String::new, |gap| {
+        let [least, most] = [gap.peak_force_min_n, gap.peak_force_max_n].map(kn);
         format!(" ({least} to {most} {})", FORCE.name())
     })
 }
@@ -752,37 +770,37 @@ fn range_beside(gap: &GapSummary, summary: &Summary) -> String {
 fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result {
     let heading = "Bearings at nominal, lower and upper properties";
     writeln!(text, "\n{}", styled(BOLD, heading))?;
-    let mut line = |name: &str, what: &str, own: &Bounded, show: &dyn Fn(f64) -> String| {
+    let mut line = |name: &str, what: &str, range: &Bounded, show: &dyn Fn(f64) -> String| {
         let [nominal, lower, upper, envelope] =
-            [own.nominal, own.lower, own.upper, own.envelope].map(show);
+            [range.nominal, range.lower, range.upper, range.envelope].map(show);
         writeln!(
             text,
             "{name}: {what} {nominal}, {lower}, {upper}; envelope {}",
             styled(BOLD, &envelope)
         )
     };
-    for own in &bounds.buildings {
-        let (name, drift) = (&own.name, |x: f64| format!("{:.2} %", 100.0 * x));
-        if let Some(stroke) = &own.stroke_m {
+    for building in &bounds.buildings {
+        let (name, drift) = (&building.name, |x: f64| format!("{:.2} %", 100.0 * x));
+        if let Some(stroke) = &building.stroke_m {
             line(name, "stroke", stroke, &|x| LENGTH.text(x, 1))?;
         }
-        if let Some(force) = &own.force_n {
+        if let Some(force) = &building.force_n {
             line(name, "force", force, &|x| FORCE.text(x, 1))?;
         }
-        line(name, "drift", &own.drift, &drift)?;
-        line(name, "storey shear", &own.storey_shear_n, &|x| {
+        line(name, "drift", &building.drift, &drift)?;
+        line(name, "storey shear", &building.storey_shear_n, &|x| {
             FORCE.text(x, 1)
         })?;
     }
-    for own in &bounds.gaps {
-        let [left, right] = &own.between;
+    for gap in &bounds.gaps {
+        let [left, right] = &gap.between;
         line(
             &format!("{left} ↔ {right}"),
             "contact force",
-            &own.peak_force_n,
+            &gap.peak_force_n,
             &|x| FORCE.text(x, 1),
         )?;
-        if let Some(needed) = &own.closing_without_contact_m {
+        if let Some(needed) = &gap.closing_without_contact_m {
             let name = format!("{left} ↔ {right}");
             line(&name, "gap needed", needed, &|x| LENGTH.text(x, 1))?;
         }
@@ -800,17 +818,19 @@ fn write_gradients(text: &mut String, gradients: &[Gradient]) -> std::fmt::Resul
         "\n{}; those of floors are in summary.json",
         styled(BOLD, "Change of a peak for 1 % more of a number")
     )?;
-    let shown = gradients.iter().filter(|own| {
-        own.peak != 0.0 && !own.of.contains("floors[") && !own.of.contains("contacts[")
+    let shown = gradients.iter().filter(|gradient| {
+        gradient.peak != 0.0
+            && !gradient.of.contains("floors[")
+            && !gradient.of.contains("contacts[")
     });
-    for own in shown {
+    for gradient in shown {
         writeln!(
             text,
             "  {:<44} {:<26} {:>+8.3} %   a line up to ±{:.1} %",
-            own.of,
-            own.by,
-            own.elasticity(),
-            100.0 * own.valid_within / own.at.abs()
+            gradient.of,
+            gradient.by,
+            gradient.elasticity(),
+            100.0 * gradient.valid_within / gradient.at.abs()
         )?;
     }
     Ok(())

@@ -54,7 +54,9 @@ fn write(summary: &Summary) -> Result<Vec<u8>, XlsxError> {
     write_summary(book.add_worksheet().set_name("Summary")?, summary)?;
     let named = |columns: Vec<(&'static str, Values)>| {
         let columns = columns.into_iter();
-        columns.map(|(name, own)| (name.to_owned(), own)).collect()
+        columns
+            .map(|(name, values)| (name.to_owned(), values))
+            .collect()
     };
     // Name of the sheet, key of its rows in summary.json, columns.
     let sheets: [(&str, &str, Columns); 6] = [
@@ -80,7 +82,7 @@ fn write(summary: &Summary) -> Result<Vec<u8>, XlsxError> {
     let mut meanings: Vec<(&str, String, [&str; 2])> = Vec::new();
     for (name, key, columns) in sheets {
         let asked = !matches!(name, "Members" | "Capacity");
-        if !asked && columns.first().is_none_or(|(_, own)| own.is_empty()) {
+        if !asked && columns.first().is_none_or(|(_, values)| values.is_empty()) {
             continue;
         }
         let known = known(key);
@@ -100,8 +102,8 @@ fn write(summary: &Summary) -> Result<Vec<u8>, XlsxError> {
 /// Units and meanings of the quantities of this owner, and of others whose columns stand among its own.
 fn known(key: &str) -> Known {
     let owners = owners();
-    let (own, others): (Vec<_>, Vec<_>) = owners.iter().partition(|owner| owner.key == key);
-    let entries = others.into_iter().chain(own);
+    let (matching, others): (Vec<_>, Vec<_>) = owners.iter().partition(|owner| owner.key == key);
+    let entries = others.into_iter().chain(matching);
     let entries = entries.flat_map(|owner| &owner.entries);
     entries
         .map(|entry| (entry.name, [entry.unit, entry.meaning]))
@@ -130,7 +132,7 @@ fn contact_columns(summary: &Summary) -> Columns {
         .flat_map(|gap| gap.contacts.iter().map(move |contact| (gap, contact)))
         .collect();
     let floor = |side: usize| {
-        let floors = contacts.iter().map(|(_, own)| own.floors[side]);
+        let floors = contacts.iter().map(|(_, contact)| contact.floors[side]);
         Values::Whole(floors.map(|floor| i32::try_from(floor?).ok()).collect())
     };
     let mut columns = vec![
@@ -139,7 +141,7 @@ fn contact_columns(summary: &Summary) -> Columns {
         ("right_floor".to_owned(), floor(1)),
     ];
     for quantity in ContactSummary::QUANTITIES {
-        let values = contacts.iter().map(|(_, own)| quantity.value(own));
+        let values = contacts.iter().map(|(_, contact)| quantity.value(contact));
         columns.push((quantity.name.to_owned(), Values::Instant(values.collect())));
     }
     columns

@@ -291,9 +291,9 @@ fn parse_diameter(text: &str) -> Result<Option<f64>, BarsError> {
             ))),
         };
     }
-    let own = text.strip_prefix(MARKS).map(str::trim);
-    let own = own.map(|own| own.strip_suffix("mm").unwrap_or(own).trim());
-    Ok(own.and_then(|own| own.parse().ok()))
+    let number = text.strip_prefix(MARKS).map(str::trim);
+    let number = number.map(|number| number.strip_suffix("mm").unwrap_or(number).trim());
+    Ok(number.and_then(|number| number.parse().ok()))
 }
 
 /// Reads `"4 d25"` or `"4 #8"`.
@@ -423,10 +423,10 @@ mod tests {
             (18, 4.0),
         ] {
             let bars = Reinforcement::parse(&format!("8 #{number}")).expect("understood");
-            let own = bars.lay(0.6, 0.6, 0.04);
-            assert_eq!(own.len(), 8);
+            let lay = bars.lay(0.6, 0.6, 0.04);
+            assert_eq!(lay.len(), 8);
             assert!(
-                (own[0].area() / (inch * inch) - area).abs() < 0.006,
+                (lay[0].area() / (inch * inch) - area).abs() < 0.006,
                 "#{number}"
             );
         }

@@ -36,7 +36,7 @@ impl BucklingCurve {
         let mut curves = CURVES.iter();
         curves
             .find(|(known, _)| *known == name)
-            .map(|(_, own)| *own)
+            .map(|(_, curve)| *curve)
     }
 
     /// Buckling force over yield force for a slenderness λ = √(Ny/NE), NE being Euler's force, > 0 \[–\]. Without partial factors.
@@ -84,7 +84,8 @@ mod tests {
             }
         }
         // Both branches of AISC 360 meet within the rounding of their factors.
-        let [below, above] = [1.5, 1.500_000_1].map(|own| BucklingCurve::Aisc360.share(own));
+        let [below, above] =
+            [1.5, 1.500_000_1].map(|slenderness| BucklingCurve::Aisc360.share(slenderness));
         assert!((below / above - 1.0).abs() < 2e-3, "{below} {above}");
         assert_eq!(BucklingCurve::named("e"), None);
     }

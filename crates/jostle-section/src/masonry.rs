@@ -476,14 +476,14 @@ mod tests {
         assert!((fema - 0.7 * 0.047 / 12.5 * 3e6).abs() < 1e-9, "{fema}");
         let mut last = f64::INFINITY;
         for slender in 1..=25 {
-            let own = Arching::Asce41
+            let strength = Arching::Asce41
                 .strength(compression, f64::from(slender) * 0.2, 0.2)
                 .expect("it arches");
             let arch = Arching::En1996
                 .strength(compression, f64::from(slender) * 0.2, 0.2)
                 .expect("it arches");
-            assert!(own < last && own < arch, "{slender}: {own}");
-            last = own;
+            assert!(strength < last && strength < arch, "{slender}: {strength}");
+            last = strength;
         }
         assert_eq!(Arching::En1996.strength(compression, 5.1, 0.2), None);
     }

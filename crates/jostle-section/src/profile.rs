@@ -65,9 +65,9 @@ impl Profile {
     #[must_use]
     pub fn depth(&self, axis: Axis) -> f64 {
         let [depth, width] = match self {
-            Self::I(own) => [own.depth, own.width],
-            Self::Tube(own) => [own.depth, own.width],
-            Self::Pipe(own) => [own.diameter; 2],
+            Self::I(profile) => [profile.depth, profile.width],
+            Self::Tube(tube) => [tube.depth, tube.width],
+            Self::Pipe(pipe) => [pipe.diameter; 2],
         };
         match axis {
             Axis::Strong => depth,
@@ -79,9 +79,9 @@ impl Profile {
     #[must_use]
     pub fn area(&self) -> f64 {
         match self {
-            Self::I(own) => own.area(),
-            Self::Tube(own) => own.area(),
-            Self::Pipe(own) => own.area(),
+            Self::I(profile) => profile.area(),
+            Self::Tube(tube) => tube.area(),
+            Self::Pipe(pipe) => pipe.area(),
         }
     }
 
@@ -89,9 +89,9 @@ impl Profile {
     #[must_use]
     pub fn inertia(&self, axis: Axis) -> f64 {
         match self {
-            Self::I(own) => own.inertia(axis),
-            Self::Tube(own) => own.inertia(axis),
-            Self::Pipe(own) => own.inertia(),
+            Self::I(profile) => profile.inertia(axis),
+            Self::Tube(tube) => tube.inertia(axis),
+            Self::Pipe(pipe) => pipe.inertia(),
         }
     }
 
@@ -99,9 +99,9 @@ impl Profile {
     #[must_use]
     pub fn plastic_modulus(&self, axis: Axis) -> f64 {
         match self {
-            Self::I(own) => own.plastic_modulus(axis),
-            Self::Tube(own) => own.plastic_modulus(axis),
-            Self::Pipe(own) => own.plastic_modulus(),
+            Self::I(profile) => profile.plastic_modulus(axis),
+            Self::Tube(tube) => tube.plastic_modulus(axis),
+            Self::Pipe(pipe) => pipe.plastic_modulus(),
         }
     }
 
@@ -114,9 +114,9 @@ impl Profile {
     #[must_use]
     pub fn torsion_constant(&self) -> f64 {
         match self {
-            Self::I(own) => own.torsion_constant(),
-            Self::Tube(own) => own.torsion_constant(),
-            Self::Pipe(own) => 2.0 * own.inertia(),
+            Self::I(profile) => profile.torsion_constant(),
+            Self::Tube(tube) => tube.torsion_constant(),
+            Self::Pipe(pipe) => 2.0 * pipe.inertia(),
         }
     }
 
@@ -125,9 +125,9 @@ impl Profile {
     #[must_use]
     pub fn shear_area(&self, axis: Axis) -> f64 {
         match self {
-            Self::I(own) => own.shear_area(axis),
-            Self::Tube(own) => own.shear_area(axis),
-            Self::Pipe(own) => 0.5 * own.area(),
+            Self::I(profile) => profile.shear_area(axis),
+            Self::Tube(tube) => tube.shear_area(axis),
+            Self::Pipe(pipe) => 0.5 * pipe.area(),
         }
     }
 }

@@ -216,11 +216,11 @@ impl Section {
         let area = self.area() + sum(0, 0.0);
         let centroid = (self.area() * 0.5 * self.depth + sum(1, 0.0)) / area;
         let offset = 0.5 * self.depth - centroid;
-        let own = self.area() * (self.depth * self.depth / 12.0 + offset * offset);
+        let gross_inertia = self.area() * (self.depth * self.depth / 12.0 + offset * offset);
         Transformed {
             area,
             centroid,
-            inertia: own + sum(2, centroid),
+            inertia: gross_inertia + sum(2, centroid),
         }
     }
 }

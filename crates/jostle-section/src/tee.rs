@@ -152,10 +152,10 @@ mod tests {
         let (mut area, mut first, mut second) = (0.0, 0.0, 0.0);
         for strip in 0..strips {
             let y = (f64::from(strip) + 0.5) * depth / f64::from(strips);
-            let own = depth / f64::from(strips) * if y < slab.depth { 1.4 } else { web };
-            area += own;
-            first += own * y;
-            second += own * y * y;
+            let strip_area = depth / f64::from(strips) * if y < slab.depth { 1.4 } else { web };
+            area += strip_area;
+            first += strip_area * y;
+            second += strip_area * y * y;
         }
         let inertia = second - first * first / area;
         assert!((tee.area / area - 1.0).abs() < 1e-9);

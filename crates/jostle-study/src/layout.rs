@@ -112,10 +112,10 @@ impl Layout {
     /// Names of all columns, in order.
     #[must_use]
     pub fn names(&self) -> Vec<&str> {
-        let own = |columns: &'static [&'static str]| columns.iter().copied();
+        let columns = |columns: &'static [&'static str]| columns.iter().copied();
         let inputs = self.inputs.iter().map(|column| &column.name[..]);
         let results = self.results.iter().map(|column| &column.name[..]);
-        own(&LEADING)
+        columns(&LEADING)
             .chain(inputs)
             .chain(std::iter::once(MOTION))
             .chain(results)

@@ -54,7 +54,7 @@ impl List {
         &mut self,
         place: &str,
         quantities: &'static [Quantity<T>],
-        (own, without): (&T, Option<&T>),
+        (response, without): (&T, Option<&T>),
         yields: bool,
     ) {
         for quantity in quantities {
@@ -62,7 +62,7 @@ impl List {
             if !places.study || places.yielding && !yields {
                 continue;
             }
-            self.add_one(place, quantity, own);
+            self.add_one(place, quantity, response);
             if self.compares && places.compared {
                 let (name, ratio) = (
                     quantity.name_without_contact(),
@@ -70,7 +70,7 @@ impl List {
                 );
                 let value = without.and_then(|without| quantity.value(without));
                 self.put(format!("{place}{name}"), kind(quantity), value);
-                let value = without.and_then(|without| quantity.amplification(own, without));
+                let value = without.and_then(|without| quantity.amplification(response, without));
                 self.put(format!("{place}{ratio}"), Kind::Real, value);
             }
         }

@@ -113,12 +113,12 @@ fn remake_histories(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<bool, StudyError> {
     for &case in &study.file.histories {
-        let own = run_folder(folder, case);
-        if own.join("summary.json").exists() {
+        let run_folder = run_folder(folder, case);
+        if run_folder.join("summary.json").exists() {
             continue;
         }
         // A case that cannot be run is a row with its reason.
-        match run_case(study, case, &own, stop) {
+        match run_case(study, case, &run_folder, stop) {
             Ok(true) | Err(StudyError::Input(_) | StudyError::Column(_)) => {}
             Ok(false) => return Ok(false),
             Err(error) => return Err(error),
@@ -150,8 +150,8 @@ pub(crate) fn run_with(
         }
         None => {
             settle(study, folder)?;
-            let own = |part: &u64| part % settings.shards == settings.shard;
-            (0..study.parts()).filter(own).collect()
+            let in_shard = |part: &u64| part % settings.shards == settings.shard;
+            (0..study.parts()).filter(in_shard).collect()
         }
     };
     let cases = parts.iter().map(|part| count(study, *part)).sum();

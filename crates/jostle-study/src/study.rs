@@ -278,7 +278,7 @@ impl Trial {
         // Factors whose values change the columns, and the values that do.
         let mut shaping: Vec<(usize, Vec<Choice>)> = Vec::new();
         for (index, factor) in file.factors.iter().enumerate() {
-            let mut own: Vec<Choice> = Vec::new();
+            let mut shaping_choices: Vec<Choice> = Vec::new();
             for choice in tried(factor) {
                 let mut choices = usual.clone();
                 choices[index] = choice.clone();
@@ -294,7 +294,7 @@ impl Trial {
                             results.push(list.clone());
                         }
                         if differs {
-                            own.push(choice);
+                            shaping_choices.push(choice);
                         }
                         first.get_or_insert((list, warnings));
                     }
@@ -308,9 +308,9 @@ impl Trial {
                         let all: Vec<usize> = std::iter::once(index).chain(others).collect();
                         let mut error = file.relocate(&all, error);
                         if matches!(factor.values, FactorValues::Drawn(_)) {
-                            let own = format!("vary[{}]:", factor.entry);
+                            let text = format!("vary[{}]:", factor.entry);
                             let faults = error.faults.iter_mut();
-                            for fault in faults.filter(|fault| fault.path.starts_with(&own)) {
+                            for fault in faults.filter(|fault| fault.path.starts_with(&text)) {
                                 fault.remedy.get_or_insert_with(|| {
                                     "set low or high, so that nothing impossible is drawn".into()
                                 });
@@ -322,9 +322,9 @@ impl Trial {
                     }
                 }
             }
-            if !own.is_empty() {
-                own.push(usual[index].clone());
-                shaping.push((index, own));
+            if !shaping_choices.is_empty() {
+                shaping_choices.push(usual[index].clone());
+                shaping.push((index, shaping_choices));
             }
         }
         if !errors.is_empty() {

@@ -27,7 +27,7 @@ impl Varied {
     /// Keys, values, and the value of the model, in one line.
     #[must_use]
     pub fn text(&self) -> String {
-        let own = if self.own.is_empty() {
+        let model_value = if self.own.is_empty() {
             "not stated in the model".to_owned()
         } else {
             format!("in the model {}", self.own)
@@ -37,7 +37,7 @@ impl Varied {
             "motion.scale" => "factor on the record (motion.scale)",
             other => other,
         };
-        format!("{keys}: {}; {own}", self.range)
+        format!("{keys}: {}; {model_value}", self.range)
     }
 }
 
@@ -59,7 +59,7 @@ pub fn varied(study: &Study) -> Vec<Varied> {
                 column.table.rows()
             ),
         };
-        let mut own: Vec<String> = Vec::new();
+        let mut model_values: Vec<String> = Vec::new();
         for value in factor.paths.iter().flat_map(|path| file.base.values(path)) {
             let text = match &value {
                 TreeValue::List(list) => {
@@ -68,8 +68,8 @@ pub fn varied(study: &Study) -> Vec<Varied> {
                 }
                 other => other.to_string(),
             };
-            if !own.contains(&text) {
-                own.push(text);
+            if !model_values.contains(&text) {
+                model_values.push(text);
             }
         }
         Varied {
@@ -80,7 +80,7 @@ pub fn varied(study: &Study) -> Vec<Varied> {
             } else {
                 values
             },
-            own: shortened(&own, ", "),
+            own: shortened(&model_values, ", "),
         }
     };
     file.factors.iter().map(one).collect()

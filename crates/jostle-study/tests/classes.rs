@@ -44,10 +44,10 @@ fn results(text: &str, jobs: usize) -> ClassesResults {
 
 #[test]
 fn classes_agree_with_counts_and_with_the_full_solver() {
-    let own = results(EVEN, 2);
-    assert_eq!(own.cases.len(), 2 * 15 * 4 * 3);
+    let results = results(EVEN, 2);
+    assert_eq!(results.cases.len(), 2 * 15 * 4 * 3);
     // A gap of 2 m never closes, and changes nothing.
-    for case in &own.cases {
+    for case in &results.cases {
         assert_eq!(case.impacts > 0, case.force > 0.0, "{case:?}");
         assert!(case.impacts == 0 || case.closing > case.gap, "{case:?}");
         assert!(
@@ -59,8 +59,8 @@ fn classes_agree_with_counts_and_with_the_full_solver() {
         }
     }
     // Curves count the same cases.
-    for curve in &own.curves {
-        let of = own
+    for curve in &results.curves {
+        let of = results
             .cases
             .iter()
             .filter(|case| case.pair == curve.pair && case.gap == curve.gap.unwrap_or(0.002));
@@ -80,27 +80,34 @@ fn classes_agree_with_counts_and_with_the_full_solver() {
             assert_eq!(cases, there.len());
             assert_eq!(
                 reached,
-                there.iter().filter(|own| **own >= curve.threshold).count()
+                there
+                    .iter()
+                    .filter(|results| **results >= curve.threshold)
+                    .count()
             );
         }
     }
     // Worse states are rarer, and the wide gap has the curves of none.
-    for states in own.curves.chunks(4) {
+    for states in results.curves.chunks(4) {
         assert!(
             states
                 .windows(2)
                 .all(|pair| pair[0].reached >= pair[1].reached)
         );
     }
-    let moved = (0..own.curves.len()).filter(|at| own.curves[*at].gap == Some(2.0));
-    for factor in moved.filter_map(|at| own.pounding_factor(at)) {
+    let moved = (0..results.curves.len()).filter(|at| results.curves[*at].gap == Some(2.0));
+    for factor in moved.filter_map(|at| results.pounding_factor(at)) {
         assert_eq!(factor, 1.0);
     }
-    let fitted = own.curves.iter().filter(|curve| curve.fit.is_ok()).count();
-    assert!(fitted >= 10, "{fitted} of {}", own.curves.len());
+    let fitted = results
+        .curves
+        .iter()
+        .filter(|curve| curve.fit.is_ok())
+        .count();
+    assert!(fitted >= 10, "{fitted} of {}", results.curves.len());
     // The full solver steps the same cases.
-    assert_eq!(own.checked.len(), 6);
-    let [drift, force] = own.worst_deviations();
+    assert_eq!(results.checked.len(), 6);
+    let [drift, force] = results.worst_deviations();
     assert!(drift < 1e-2 && force < 3e-2, "{drift} {force}");
 }
 
@@ -117,8 +124,8 @@ fn threads_change_no_bit_and_a_stop_leaves_nothing() {
 #[test]
 fn files_are_complete_and_nrml_has_moments_of_the_intensity() {
     let folder = tempfile::tempdir().expect("a folder");
-    let own = results(EVEN, 2);
-    let left_out = write_classes(folder.path(), &file(EVEN), &own);
+    let results = results(EVEN, 2);
+    let left_out = write_classes(folder.path(), &file(EVEN), &results);
     let left_out = left_out.unwrap_or_else(|error| panic!("{error}"));
     for (name, _) in FILES {
         assert!(folder.path().join(name).is_file(), "{name}");
@@ -129,12 +136,12 @@ fn files_are_complete_and_nrml_has_moments_of_the_intensity() {
     let functions = xml.matches("<fragilityFunction").count();
     assert!(functions > 0, "{left_out:?}");
     let names = xml.split("<fragilityFunction id=\"").skip(1);
-    for name in names.filter_map(|own| own.split('"').next()) {
+    for name in names.filter_map(|name| name.split('"').next()) {
         let fits = |c: char| c.is_ascii_alphanumeric() || "_-:".contains(c);
         assert!(name.len() <= 75 && name.chars().all(fits), "{name}");
     }
     let rows = read("pelicun.csv").lines().count() - 1;
-    let groups = own.curves.len() / 4;
+    let groups = results.curves.len() / 4;
     assert_eq!(
         (functions, rows),
         (groups - left_out.len(), functions),
@@ -144,7 +151,7 @@ fn files_are_complete_and_nrml_has_moments_of_the_intensity() {
     let number = |line: &str, key: &str| -> f64 {
         let after = line.split(&format!("{key}=\"")).nth(1).expect("the key");
         let text = after.split('"').next();
-        text.and_then(|own| own.parse().ok()).expect("a number")
+        text.and_then(|split| split.parse().ok()).expect("a number")
     };
     let params = xml.lines().filter(|line| line.contains("<params"));
     let medians: Vec<f64> = params
@@ -159,7 +166,7 @@ fn files_are_complete_and_nrml_has_moments_of_the_intensity() {
         .skip(1)
         .flat_map(|row| [7, 11, 15, 19].map(|at| row.split(',').nth(at)));
     let other: Vec<f64> = cells
-        .map(|own| own.and_then(|own| own.parse().ok()).expect("a median"))
+        .map(|cell| cell.and_then(|cell| cell.parse().ok()).expect("a median"))
         .collect();
     assert_eq!(medians.len(), other.len());
     for (a, b) in medians.iter().zip(&other) {

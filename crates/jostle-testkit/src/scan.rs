@@ -13,9 +13,9 @@ pub struct Dice(u64);
 impl Dice {
     /// A sequence of its own for a test.
     #[must_use]
-    pub fn new(own: u64) -> Self {
+    pub fn new(sequence: u64) -> Self {
         let seed = number("JOSTLE_SEED").unwrap_or(1) as u64;
-        let mut dice = Self(0x9E37_79B9_7F4A_7C15 ^ (seed << 20) ^ own);
+        let mut dice = Self(0x9E37_79B9_7F4A_7C15 ^ (seed << 20) ^ sequence);
         for _ in 0..20 {
             dice.below(2);
         }

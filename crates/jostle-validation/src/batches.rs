@@ -98,7 +98,10 @@ impl Compared {
 }
 
 fn share(all: &[f64], tolerance: f64) -> f64 {
-    let within = all.iter().filter(|own| **own <= tolerance).count();
+    let within = all
+        .iter()
+        .filter(|candidate| **candidate <= tolerance)
+        .count();
     within as f64 / all.len().max(1) as f64
 }
 
@@ -118,24 +121,24 @@ fn building(seed: u64, at: u64, bilinear: bool) -> Building {
     let types = Types::hazus();
     let classes: Vec<&Class> = types
         .classes()
-        .filter(|own| *own.storeys.start() <= MOST_STOREYS)
+        .filter(|class| *class.storeys.start() <= MOST_STOREYS)
         .collect();
     let class = classes[(dice("class") * classes.len() as f64) as usize];
     let most = (*class.storeys.end()).min(MOST_STOREYS);
     let least = *class.storeys.start();
     let storeys = least + (dice("storeys") * (most - least + 1) as f64) as usize;
-    let mut own = class.building(storeys, 80.0 + 700.0 * dice("area"));
+    let mut building = class.building(storeys, 80.0 + 700.0 * dice("area"));
     let stiffness = lognormal(seed, at, "stiffness", 0.1);
     let strength = lognormal(seed, at, "strength", 0.25);
-    for storey in &mut own.storeys {
+    for storey in &mut building.storeys {
         storey.stiffness *= stiffness;
         storey.first_corner *= strength / stiffness;
         storey.second_corner *= strength / stiffness;
     }
     if bilinear {
-        own.rule = Rule::Bilinear;
+        building.rule = Rule::Bilinear;
     }
-    own
+    building
 }
 
 fn random_row(seed: u64, at: u64, kind: Kind, peak: f64) -> Row {
@@ -143,13 +146,13 @@ fn random_row(seed: u64, at: u64, kind: Kind, peak: f64) -> Row {
     let [least, most] = kind.buildings;
     let count = least + (uniform(seed, at, "count") * (most - least + 1) as f64) as usize;
     let buildings: Vec<Building> = (0..count)
-        .map(|own| building(seed, place(own), kind.bilinear))
+        .map(|index| building(seed, place(index), kind.bilinear))
         .collect();
     let gap = |pair: usize| {
-        let own = place(pair);
-        let width = GAP.0 * lognormal(seed, own, "gap", GAP.1);
+        let place = place(pair);
+        let width = GAP.0 * lognormal(seed, place, "gap", GAP.1);
         let law = Law::HertzDamp {
-            stiffness: 2.75e9 * lognormal(seed, own, "contact", 0.3),
+            stiffness: 2.75e9 * lognormal(seed, place, "contact", 0.3),
             restitution: 0.65,
         };
         Gap::between(
@@ -181,8 +184,8 @@ pub fn compare(pairs: usize, rows: usize, seed: u64) -> Result<Vec<Compared>, St
     let mut all = Vec::new();
     for (place, kind) in KINDS.into_iter().enumerate() {
         let count = if kind.buildings[1] == 2 { pairs } else { rows } / 2;
-        let own = seed.wrapping_mul(1000).wrapping_add(place as u64);
-        let random = |at: usize| random_row(own, at as u64, kind, peak);
+        let wrapping_mul = seed.wrapping_mul(1000).wrapping_add(place as u64);
+        let random = |at: usize| random_row(wrapping_mul, at as u64, kind, peak);
         for (tolerance, phase) in WAYS {
             for precision in [Precision::Single, Precision::Double] {
                 let options = Options { phase, precision };
@@ -190,18 +193,19 @@ pub fn compare(pairs: usize, rows: usize, seed: u64) -> Result<Vec<Compared>, St
                     .into_par_iter()
                     .map(|at| {
                         let both = both_ways(&random(at), &motion, &options, &|| false);
-                        both.and_then(|own| own.ok_or_else(|| "stopped".to_owned()))
+                        both.and_then(|both_way| both_way.ok_or_else(|| "stopped".to_owned()))
                             .map_err(|problem| format!("{}, row {at}: {problem}", kind.name))
                     })
                     .collect();
                 let found = found?;
                 let mut deviations = [Vec::new(), Vec::new(), Vec::new()];
                 for both in &found {
-                    for (all, own) in deviations.iter_mut().zip(both.deviations()) {
-                        all.extend(own);
+                    for (all, deviation) in deviations.iter_mut().zip(both.deviations()) {
+                        all.extend(deviation);
                     }
                 }
-                let touches = |own: &&BothWays| own.force.iter().flatten().any(|own| *own > 0.0);
+                let touches =
+                    |ways: &&BothWays| ways.force.iter().flatten().any(|force| *force > 0.0);
                 all.push(Compared {
                     kind: kind.name,
                     rows: count,
@@ -228,11 +232,11 @@ pub fn speed() -> Result<Vec<(&'static str, f64, f64)>, String> {
     let mut all = Vec::new();
     for (name, bilinear) in [("pinched", false), ("bilinear", true)] {
         let of = |storeys: usize| {
-            let mut own = class.building(storeys, 400.0);
+            let mut building = class.building(storeys, 400.0);
             if bilinear {
-                own.rule = Rule::Bilinear;
+                building.rule = Rule::Bilinear;
             }
-            own
+            building
         };
         let buildings = vec![of(4), of(6)];
         let law = Law::HertzDamp {
@@ -287,15 +291,15 @@ pub fn city(folder: &Path) -> Result<(f64, f64), String> {
     let start = Instant::now();
     let out = folder.join("out");
     let cases = pool.install(|| {
-        let own = City::new(file).map_err(|error| shown(&error))?;
-        own.run(&out, RunOptions::default(), &|| false, &mut |_| {})
+        let city = City::new(file).map_err(|error| shown(&error))?;
+        city.run(&out, RunOptions::default(), &|| false, &mut |_| {})
             .map_err(|error| shown(&error))?;
-        Ok::<usize, String>(own.cases())
+        Ok::<usize, String>(city.cases())
     })?;
     let seconds = start.elapsed().as_secs_f64();
     let runs = std::fs::read_dir(out.join("runs")).map_err(|error| shown(&error))?;
-    let sizes = runs.flatten().filter_map(|own| own.metadata().ok());
-    let bytes: u64 = sizes.map(|own| own.len()).sum();
+    let sizes = runs.flatten().filter_map(|run| run.metadata().ok());
+    let bytes: u64 = sizes.map(|size| size.len()).sum();
     Ok((cases as f64 / seconds, bytes as f64 / cases as f64))
 }
 
@@ -322,25 +326,26 @@ pub fn page(
         1e3 * GAP.0,
         PGA.0 / jostle::statics::STANDARD_GRAVITY
     );
-    let percent = |own: f64| format!("{:.2} %", 100.0 * own);
-    for own in compared {
-        let kinds = [0, 1, 2].map(|at| percent(share(&own.deviations[at], own.tolerance)));
+    let percent = |value: f64| format!("{:.2} %", 100.0 * value);
+    for comparison in compared {
+        let kinds =
+            [0, 1, 2].map(|at| percent(share(&comparison.deviations[at], comparison.tolerance)));
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "| {} {} | {} | {:e} | {} | {} | {} | {} | {:.1e} |",
-            own.rows,
-            own.kind,
-            own.touching,
-            own.tolerance,
-            match own.precision {
+            comparison.rows,
+            comparison.kind,
+            comparison.touching,
+            comparison.tolerance,
+            match comparison.precision {
                 Precision::Single => "32 bits",
                 Precision::Double => "64 bits",
             },
-            own.deviations.iter().map(Vec::len).sum::<usize>(),
+            comparison.deviations.iter().map(Vec::len).sum::<usize>(),
             kinds.join(" | "),
-            percent(own.within()),
-            own.worst()
+            percent(comparison.within()),
+            comparison.worst()
         );
     }
     text += "\n## Speed\n\n\
@@ -384,11 +389,11 @@ struct Rounded(f64);
 impl std::fmt::Display for Rounded {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let size = 10_f64.powf(self.0.abs().log10().floor() - 1.0);
-        let own = (self.0 / size).round() * size;
-        if own >= 10.0 {
-            write!(f, "{own:.0}")
+        let rounded = (self.0 / size).round() * size;
+        if rounded >= 10.0 {
+            write!(f, "{rounded:.0}")
         } else {
-            write!(f, "{own:.1}")
+            write!(f, "{rounded:.1}")
         }
     }
 }
@@ -401,13 +406,18 @@ mod tests {
     fn batches_keep_their_tolerance() {
         let found = compare(12, 6, 7).unwrap_or_else(|error| panic!("{error}"));
         assert!(found.iter().map(|own| own.touching).sum::<usize>() > 40);
-        for own in found {
-            assert!(own.within() >= 0.99, "{}: {}", own.kind, own.within());
+        for compare in found {
             assert!(
-                own.worst() < 5.0 * own.tolerance,
+                compare.within() >= 0.99,
+                "{}: {}",
+                compare.kind,
+                compare.within()
+            );
+            assert!(
+                compare.worst() < 5.0 * compare.tolerance,
                 "{}: {:e}",
-                own.kind,
-                own.worst()
+                compare.kind,
+                compare.worst()
             );
         }
     }

@@ -143,11 +143,13 @@ fn delayed(source: &str, case: &Value) -> Vec<Row> {
     let system = System::assemble(&model).expect("a sound model");
     let mut motion = motion(inputs);
     let arrivals = numbers(inputs, "/motion/arrival_s").into_iter();
-    let own = arrivals.map(|arrival| OwnGround {
+    let grounds = arrivals.map(|arrival| OwnGround {
         arrival,
         ..OwnGround::default()
     });
-    motion.grounds = Some(Box::new(Grounds { own: own.collect() }));
+    motion.grounds = Some(Box::new(Grounds {
+        own: grounds.collect(),
+    }));
     let peak = |name: &str, which: &str| number(case, &format!("/peaks/{name}/{which}/value"));
     let mut rows = Vec::new();
     for (steps, analysis, limit) in settings() {
@@ -176,13 +178,16 @@ fn delayed(source: &str, case: &Value) -> Vec<Row> {
                 outcome.peaks.closing(index).value,
             );
             let stored = list(at(case, &format!("/contacts/{name}")), "/impacts");
-            let own = outcome.impacts.iter().filter(|own| own.contact == index);
-            let own: Vec<_> = own.collect();
-            counts.add(stored.len() as f64, own.len() as f64);
-            for (stored, own) in stored.iter().zip(own) {
-                touches.add(number(stored, "/start_s"), own.start);
-                forces.add(number(stored, "/peak_force_n"), own.peak_force);
-                impulses.add(number(stored, "/impulse_n_s"), own.impulse);
+            let impacts = outcome
+                .impacts
+                .iter()
+                .filter(|impact| impact.contact == index);
+            let impacts: Vec<_> = impacts.collect();
+            counts.add(stored.len() as f64, impacts.len() as f64);
+            for (stored, got) in stored.iter().zip(impacts) {
+                touches.add(number(stored, "/start_s"), got.start);
+                forces.add(number(stored, "/peak_force_n"), got.peak_force);
+                impulses.add(number(stored, "/impulse_n_s"), got.impulse);
             }
         }
         let mut row = |what: &str, pairs: &Pairs, limit: f64| {

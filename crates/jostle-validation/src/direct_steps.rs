@@ -46,8 +46,11 @@ const TOLERANCES: [f64; 3] = [1e-3, 5e-4, 2e-4];
 
 fn impulse(system: &System, outcome: &Outcome) -> f64 {
     let at_floor = |contact: usize| system.contacts[contact].ports.floors() == [Some(3), Some(3)];
-    let own = outcome.impacts.iter().filter(|own| at_floor(own.contact));
-    own.map(|impact| impact.impulse).sum()
+    let impacts = outcome
+        .impacts
+        .iter()
+        .filter(|impact| at_floor(impact.contact));
+    impacts.map(|impact| impact.impulse).sum()
 }
 
 fn acceleration(outcome: &Outcome, building: usize) -> f64 {
@@ -85,7 +88,9 @@ pub fn rows() -> Vec<Row> {
             let duration = input.ground_motion().expect("the record is there").duration;
             let (system, outcome) = run_model(&input, None, settings, duration);
             let greatest = (case.greatest)(&system, &outcome);
-            let residual = outcome.accuracy.map_or(f64::INFINITY, |own| own.residual);
+            let residual = outcome
+                .accuracy
+                .map_or(f64::INFINITY, |accuracy| accuracy.residual);
             let source = format!("direct/{}", case.name);
             rows.push(Row::absolute(
                 &source,

@@ -107,7 +107,7 @@ fn model(inputs: &Value, case: &Value, tolerance: f64) -> Model {
         restitution: case["restitution_put_in"].as_f64().unwrap_or(1.0),
         restitution_is: RestitutionIs::Input,
     };
-    let width = contacts.iter().map(|own| number(own, "/gap_m"));
+    let width = contacts.iter().map(|contact| number(contact, "/gap_m"));
     let width = width.fold(f64::INFINITY, f64::min);
     let mut gap = Gap::between([Some(0), Some(1)], width, law);
     gap.in_plan = PlanContact {
@@ -116,7 +116,7 @@ fn model(inputs: &Value, case: &Value, tolerance: f64) -> Model {
         friction: first["friction"].as_f64().unwrap_or(0.0),
         tangential_stiffness: first["tangential_stiffness_n_m"]
             .as_f64()
-            .map(|own| own / share),
+            .map(|contact| contact / share),
         ..PlanContact::default()
     };
     Model {
@@ -138,8 +138,8 @@ fn run(system: &System, model: &Model, inputs: &Value) -> Outcome {
     let plan = Plan::choose(system, &still, &model.analysis).expect("modal stepping");
     let mut state = State::at_rest(system, 0.0);
     let velocities = numbers(inputs, "/initial_velocity");
-    for (building, own) in system.buildings.iter().zip(velocities.chunks_exact(3)) {
-        for (track, velocity) in building.tracks.iter().zip(own) {
+    for (building, building_velocities) in system.buildings.iter().zip(velocities.chunks_exact(3)) {
+        for (track, velocity) in building.tracks.iter().zip(building_velocities) {
             state.velocity[track.dof] = *velocity;
         }
     }
@@ -184,19 +184,24 @@ fn compare(source: &str, inputs: &Value, case: &Value, tolerance: f64, limit: f6
             limit,
         ));
     };
-    let tracks = || system.buildings.iter().flat_map(|own| &own.tracks);
+    let tracks = || {
+        system
+            .buildings
+            .iter()
+            .flat_map(|building| &building.tracks)
+    };
     kind(
         "velocities after the impact [m/s, rad/s]",
         numbers(case, "/velocity_after"),
         tracks()
-            .map(|own| outcome.state.velocity[own.dof])
+            .map(|track| outcome.state.velocity[track.dof])
             .collect(),
     );
     kind(
         "displacements at the end [m, rad]",
         numbers(case, "/displacement_at_end"),
         tracks()
-            .map(|own| outcome.state.displacement[own.dof])
+            .map(|track| outcome.state.displacement[track.dof])
             .collect(),
     );
     let contacts = list(case, "/contacts_expected");
@@ -205,18 +210,25 @@ fn compare(source: &str, inputs: &Value, case: &Value, tolerance: f64, limit: f6
         let all = outcome.impacts.iter();
         all.filter(move |impact| impact.contact == contact)
     };
-    let of = |key: &str| contacts.iter().map(|own| number(own, key)).collect();
+    let of = |key: &str| {
+        contacts
+            .iter()
+            .map(|contact| number(contact, key))
+            .collect()
+    };
     kind(
         "numbers of impacts",
         of("/impact_count"),
-        all.clone().map(|own| impacts(own).count() as f64).collect(),
+        all.clone()
+            .map(|impact| impacts(impact).count() as f64)
+            .collect(),
     );
     kind(
         "peak forces of points [N]",
         of("/peak_force_n"),
         all.clone()
-            .map(|own| {
-                impacts(own)
+            .map(|contact| {
+                impacts(contact)
                     .map(|impact| impact.peak_force)
                     .fold(0.0, f64::max)
             })
@@ -227,8 +239,8 @@ fn compare(source: &str, inputs: &Value, case: &Value, tolerance: f64, limit: f6
     expected.extend::<Vec<f64>>(of("/tangential_impulse_n_s"));
     let normal = all
         .clone()
-        .map(|own| impacts(own).map(|impact| impact.impulse).sum());
-    let tangential = all.map(|own| impacts(own).map(|impact| impact.sliding.impulse).sum());
+        .map(|contact| impacts(contact).map(|impact| impact.impulse).sum());
+    let tangential = all.map(|contact| impacts(contact).map(|impact| impact.sliding.impulse).sum());
     kind(
         "impulses [N·s]",
         expected,
@@ -236,9 +248,12 @@ fn compare(source: &str, inputs: &Value, case: &Value, tolerance: f64, limit: f6
     );
     let faces = list(case, "/faces_expected").iter();
     let stored = faces
-        .map(|own| number(own, "/peak_force_n"))
+        .map(|face| number(face, "/peak_force_n"))
         .fold(0.0, f64::max);
-    let tops = outcome.face_impacts.iter().map(|own| own.peak_force.value);
+    let tops = outcome
+        .face_impacts
+        .iter()
+        .map(|face_impact| face_impact.peak_force.value);
     let top = tops.fold(0.0, f64::max);
     let mut sum = |what: &str, expected: f64, limit: f64| {
         let quantity = format!("{law}, tolerance {tolerance:.0e}, {what}");

@@ -41,8 +41,12 @@ fn compare(case: &Value) -> Vec<Row> {
     let source = format!("space/S10_given_in_plan, {name}");
     let input = model(&text_of(case));
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = &system.buildings[0];
-    let periods: Vec<f64> = own.modes.iter().map(jostle::eigen::Mode::period).collect();
+    let building = &system.buildings[0];
+    let periods: Vec<f64> = building
+        .modes
+        .iter()
+        .map(jostle::eigen::Mode::period)
+        .collect();
     let expected = numbers(case, "/periods_s");
     let mut rows = vec![Row::worst_of(
         &source,
@@ -63,7 +67,7 @@ fn compare(case: &Value) -> Vec<Row> {
         &source,
         "centre of mass of the roof [m]",
         &numbers(case, "/mass_centre_m"),
-        &own.discretization.centres[1],
+        &building.discretization.centres[1],
         EXACT,
     ));
     rows

@@ -272,7 +272,7 @@ fn building_case(source: &str, case: &Value) -> Vec<Row> {
         let impacts = list(contact, "/impacts");
         let pairs = |key: &str, of: fn(&jostle::Impact) -> f64| -> Vec<(f64, f64)> {
             let both = impacts.iter().zip(&outcome.impacts);
-            both.map(|(stored, own)| (number(stored, key), of(own)))
+            both.map(|(stored, got)| (number(stored, key), of(got)))
                 .collect()
         };
         row(
@@ -282,17 +282,17 @@ fn building_case(source: &str, case: &Value) -> Vec<Row> {
         );
         row(
             "instants of touch [s]",
-            &pairs("/start_s", |own| own.start),
+            &pairs("/start_s", |impact| impact.start),
             limit,
         );
         row(
             "peak forces of impacts [N]",
-            &pairs("/peak_force_n", |own| own.peak_force),
+            &pairs("/peak_force_n", |impact| impact.peak_force),
             limit,
         );
         row(
             "impulses [N.s]",
-            &pairs("/impulse_n_s", |own| own.impulse),
+            &pairs("/impulse_n_s", |impact| impact.impulse),
             limit,
         );
     }

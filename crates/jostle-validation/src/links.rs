@@ -244,20 +244,20 @@ fn compare(source: &str, case: &Value, tolerance: f64) -> Vec<Row> {
     if let Some(energy) = case.get("energy_at_end") {
         let elements = |prefix: &str| -> f64 {
             let all = at(energy, "/elements_j").as_object().expect("a table");
-            let own = all.iter().filter(|(name, _)| name.starts_with(prefix));
-            own.filter_map(|(_, work)| work.as_f64()).sum()
+            let object = all.iter().filter(|(name, _)| name.starts_with(prefix));
+            object.filter_map(|(_, work)| work.as_f64()).sum()
         };
         let links = (0..system.links.len()).map(|link| outcome.peaks.work(Owner::Link(link)));
         let links: f64 = links.sum();
-        let own = outcome.energy;
-        let dashpots = own.damped - own.links;
+        let outcome_energy = outcome.energy;
+        let dashpots = outcome_energy.damped - outcome_energy.links;
         kind(
             "energies [J]",
             vec![
-                (number(energy, "/input_j"), own.input),
+                (number(energy, "/input_j"), outcome_energy.input),
                 (number(energy, "/damped_j"), dashpots),
                 (elements("link"), links),
-                (elements("contact"), own.contact),
+                (elements("contact"), outcome_energy.contact),
             ],
         );
     }

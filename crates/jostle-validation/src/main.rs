@@ -204,8 +204,8 @@ fn bits_of(arguments: &[String]) -> ExitCode {
             ExitCode::SUCCESS
         }
         Ok(Comparison { results, moved, .. }) => {
-            for own in &moved {
-                say(&own.to_string());
+            for change in &moved {
+                say(&change.to_string());
             }
             say(&format!("{} of {results} results moved", moved.len()));
             ExitCode::FAILURE
@@ -320,8 +320,12 @@ fn certified(arguments: &[String]) -> ExitCode {
 /// Tables and figure of certified runs.
 /// `--batches PAIRS ROWS [--seed S] [--page]`.
 fn batched(arguments: &[String]) -> ExitCode {
-    let number = |at: usize| arguments.get(at).and_then(|own| own.parse::<u64>().ok());
-    let seed = arguments.iter().position(|own| own == "--seed");
+    let number = |at: usize| {
+        arguments
+            .get(at)
+            .and_then(|argument| argument.parse::<u64>().ok())
+    };
+    let seed = arguments.iter().position(|argument| argument == "--seed");
     let seed = seed.map_or(Some(1), |at| number(at + 1));
     let (Some(pairs), Some(rows), Some(seed)) = (number(0), number(1), seed) else {
         say(&format!(
@@ -348,12 +352,12 @@ fn batched(arguments: &[String]) -> ExitCode {
         }
     };
     say(&page);
-    if arguments.iter().any(|own| own == "--page") {
+    if arguments.iter().any(|argument| argument == "--page") {
         return written(&in_crate("../../docs/batches.md"), &page);
     }
     let kept = compared
         .iter()
-        .all(|own| own.within() >= 0.995 && own.worst() < 5.0 * own.tolerance());
+        .all(|compare| compare.within() >= 0.995 && compare.worst() < 5.0 * compare.tolerance());
     if kept {
         ExitCode::SUCCESS
     } else {

@@ -109,9 +109,12 @@ pub(crate) fn summary_of(file: &str) -> Summary {
 
 /// A brace, strut or wall by its name.
 fn part<'a>(summary: &'a Summary, name: &str) -> &'a jostle::results::summary::PartSummary {
-    let mut parts = summary.buildings.iter().flat_map(|own| &own.parts);
+    let mut parts = summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.parts);
     parts
-        .find(|own| own.name == name)
+        .find(|part| part.name == name)
         .expect("a part of that name")
 }
 
@@ -130,10 +133,10 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
         for floor in &building.floors.above {
             let place = format!("/results/displacement/{}{}", building.name, floor.floor);
             expected.extend(["max_m", "min_m"].map(|key| number(case, &format!("{place}/{key}"))));
-            let own = &floor.response;
+            let response = &floor.response;
             got.extend(match from_behind {
-                false => [own.displacement_max_m, own.displacement_min_m],
-                true => [-own.displacement_min_m, -own.displacement_max_m],
+                false => [response.displacement_max_m, response.displacement_min_m],
+                true => [-response.displacement_min_m, -response.displacement_max_m],
             });
         }
     }
@@ -149,8 +152,8 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
     for (part_name, stored) in entries(case, "/results/force") {
         expected.extend([number(stored, "/max"), number(stored, "/min")]);
         if let Some(wall) = part_name.strip_prefix("base") {
-            let own = part(&summary, if wall == "1" { "W.wall.2" } else { "W.wall.1" });
-            let both = [own.moment_min_n_m, own.moment_max_n_m];
+            let part = part(&summary, if wall == "1" { "W.wall.2" } else { "W.wall.1" });
+            let both = [part.moment_min_n_m, part.moment_max_n_m];
             got.extend(both.map(|moment| -moment.unwrap_or_default()));
             continue;
         }
@@ -159,10 +162,10 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
             .trim_start_matches(char::is_alphabetic)
             .split_at(1);
         let mut parts = summary.buildings[0].parts.iter();
-        let own = parts
-            .find(|own| own.name.contains(&format!(".{storey}.1")) && own.name.ends_with(rise))
+        let part = parts
+            .find(|part| part.name.contains(&format!(".{storey}.1")) && part.name.ends_with(rise))
             .expect("a part of that name");
-        got.extend([own.force_max_n, own.force_min_n]);
+        got.extend([part.force_max_n, part.force_min_n]);
     }
     if !expected.is_empty() {
         let is_wall = case.pointer("/results/force/base1").is_some();
@@ -176,10 +179,10 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
     let both = ["peak_n", "impulse_n_s"].map(|key| {
         let places = contacts.iter().enumerate();
         places
-            .map(|(index, own)| {
+            .map(|(index, contact)| {
                 // Those at different levels are named after their height.
                 let by_number = format!("/results/contact/contact{}/{key}", index + 1);
-                let by_height = format!("/results/contact/contact@{:.1}/{key}", own.height_m);
+                let by_height = format!("/results/contact/contact@{:.1}/{key}", contact.height_m);
                 match case.pointer(&by_number) {
                     Some(_) => number(case, &by_number),
                     None => number(case, &by_height),
@@ -187,8 +190,11 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
             })
             .collect::<Vec<f64>>()
     });
-    let peaks: Vec<f64> = contacts.iter().map(|own| own.peak_force_n).collect();
-    let impulses: Vec<f64> = contacts.iter().map(|own| own.impulse_n_s).collect();
+    let peaks: Vec<f64> = contacts
+        .iter()
+        .map(|contact| contact.peak_force_n)
+        .collect();
+    let impulses: Vec<f64> = contacts.iter().map(|contact| contact.impulse_n_s).collect();
     for (what, expected, got) in [
         ("contact forces [N]", &both[0], peaks),
         ("impulses of contacts [N·s]", &both[1], impulses),
@@ -201,7 +207,10 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
         let expected: Vec<f64> = (0..contacts.len())
             .map(|index| number(case, &key(index)))
             .collect();
-        let got: Vec<f64> = contacts.iter().map(|own| own.impact_count as f64).collect();
+        let got: Vec<f64> = contacts
+            .iter()
+            .map(|contact| contact.impact_count as f64)
+            .collect();
         rows.push(Row::worst_of(name, with("impacts"), &expected, &got, 0.0));
     }
     if case.pointer("/input/storey_heights_m").is_some() {
@@ -218,11 +227,14 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
 /// Lateral periods of both buildings, and how far the floors of the frame give way under a unit force each.
 fn compare_statics(name: &str, case: &Value, system: &System, summary: &Summary) -> [Row; 2] {
     let expected = numbers(case, "/periods_s_without_contact");
-    let all = summary.buildings.iter().flat_map(|own| &own.periods_s);
+    let all = summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.periods_s);
     let got: Vec<f64> = expected
         .iter()
         .filter_map(|period| {
-            let away = |own: &&f64| (*own - period).abs();
+            let away = |candidate: &&f64| (*candidate - period).abs();
             all.clone()
                 .min_by(|a, b| away(a).total_cmp(&away(b)))
                 .copied()

@@ -70,7 +70,7 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
                 ("max", |peak| peak.greatest.value),
                 ("min", |peak| peak.least.value),
             ];
-            for (side, own) in sides {
+            for (side, extreme) in sides {
                 let wanted: Vec<f64> = list(stored, "/floors")
                     .iter()
                     .map(|floor| number(floor, &format!("/{key}_{side}_{unit}")))
@@ -82,7 +82,7 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
                 let moved = floors
                     .iter()
                     .map(|floor| floor.to(direction).displacement());
-                let got: Vec<f64> = moved.map(own).collect();
+                let got: Vec<f64> = moved.map(extreme).collect();
                 rows.push(Row::worst_of(
                     &source,
                     format!("{name}, {side}. {what}"),

@@ -340,9 +340,12 @@ fn peaks(
             (peak(name, "min"), least.value),
         ]
     };
-    let own = outcome.peaks.owned_by(Owner::Foundation(index));
-    take("sway [m]", &both(&prefix("u_f"), own));
-    take("rocking [rad]", &both(&prefix("theta"), own.turning()));
+    let foundation = outcome.peaks.owned_by(Owner::Foundation(index));
+    take("sway [m]", &both(&prefix("u_f"), foundation));
+    take(
+        "rocking [rad]",
+        &both(&prefix("theta"), foundation.turning()),
+    );
     let displacements: Vec<(f64, f64)> = floors
         .iter()
         .enumerate()
@@ -352,7 +355,7 @@ fn peaks(
     // Unknowns are u_f, θ and the floors of every building.
     let before: usize = model.buildings[..index]
         .iter()
-        .map(|own| own.floors() + 2)
+        .map(|building| building.floors() + 2)
         .sum();
     let accelerations: Vec<(f64, f64)> = floors
         .iter()

@@ -134,7 +134,7 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
     let index = |name: &Value| {
         let found = buildings
             .iter()
-            .position(|own| Some(&own.name[..]) == name.as_str());
+            .position(|building| Some(&building.name[..]) == name.as_str());
         found.expect("a building of that name")
     };
     let mut gaps: Vec<Gap> = Vec::new();
@@ -145,8 +145,8 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         if gaps.iter().any(|gap| gap.between == between) {
             continue;
         }
-        let own = |other: &&Value| at(other, "/between") == at(contact, "/between");
-        let of_pair = || contacts.iter().filter(own);
+        let same_pair = |other: &&Value| at(other, "/between") == at(contact, "/between");
+        let of_pair = || contacts.iter().filter(same_pair);
         let same_floors = of_pair().filter(|other| {
             at(other, "/floors") == at(contact, "/floors")
                 && at(other, "/normal") == at(contact, "/normal")
@@ -168,7 +168,7 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
             friction: contact["friction"].as_f64().unwrap_or(0.0),
             tangential_stiffness: contact["tangential_stiffness_n_m"]
                 .as_f64()
-                .map(|own| own / number(contact, "/share")),
+                .map(|stiffness| stiffness / number(contact, "/share")),
             ..PlanContact::default()
         };
         gaps.push(gap);
@@ -216,7 +216,7 @@ fn motion(inputs: &Value) -> GroundMotion {
         let across = sum_across(
             &motions
                 .iter()
-                .map(|own| (one(own), factors(own)[1]))
+                .map(|motion| (one(motion), factors(motion)[1]))
                 .collect::<Vec<_>>(),
         );
         first.scale *= x;
@@ -327,7 +327,7 @@ fn compare(
         let found = system
             .buildings
             .iter()
-            .position(|own| Some(&own.name[..]) == name.as_str());
+            .position(|building| Some(&building.name[..]) == name.as_str());
         found.expect("a building of that name")
     };
     let floors = list(expected, "/floors");
@@ -389,11 +389,11 @@ fn compare(
         .map(|stored| {
             let (place, normal) = (point(at(stored, "/point_m")), point(at(stored, "/normal")));
             let floor = list(stored, "/floors")[0].as_u64();
-            let found = system.contacts.iter().position(|own| {
-                own.plan.is_some_and(|plan| {
+            let found = system.contacts.iter().position(|contact| {
+                contact.plan.is_some_and(|plan| {
                     let near = |a: PlanPoint, b: PlanPoint| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9;
                     near(plan.at, place) && near(plan.normal, normal)
-                }) && own.ports.floors()[0].map(|f| f as u64) == floor
+                }) && contact.ports.floors()[0].map(|f| f as u64) == floor
             });
             found.expect("every point of the reference is found from the plans")
         })
@@ -401,28 +401,28 @@ fn compare(
     assert_eq!(matched.len(), system.contacts.len(), "no further points");
     let of_contacts = |key: &str, got: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
         let stored = list(expected, "/contacts").iter();
-        let one = |(stored, own): (&Value, &usize)| (number(stored, key), got(*own));
+        let one = |(stored, index): (&Value, &usize)| (number(stored, key), got(*index));
         stored.zip(&matched).map(one).collect()
     };
-    let impacts = |own: usize| {
+    let impacts = |index: usize| {
         outcome
             .impacts
             .iter()
-            .filter(move |impact| impact.contact == own)
+            .filter(move |impact| impact.contact == index)
     };
     let given = |key: &str, got: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
         let stored = contacts.iter().zip(&matched);
         stored
-            .map(|(stored, own)| (number(stored, key), got(*own)))
+            .map(|(stored, index)| (number(stored, key), got(*index)))
             .collect()
     };
     kind(
         "gaps of points [m]",
-        given("/gap_m", &|own| system.contacts[own].width),
+        given("/gap_m", &|index| system.contacts[index].width),
     );
     kind(
         "stiffness of points",
-        given("/stiffness", &|own| match system.contacts[own].law {
+        given("/stiffness", &|index| match system.contacts[index].law {
             ForceLaw::Hertz { stiffness, .. } | ForceLaw::Kelvin { stiffness, .. } => stiffness,
             _ => f64::NAN,
         }),
@@ -433,7 +433,7 @@ fn compare(
     {
         kind(
             "damping of points, ζ of the law",
-            given("/hertz_damp_d", &|own| match system.contacts[own].law {
+            given("/hertz_damp_d", &|index| match system.contacts[index].law {
                 ForceLaw::Hertz { damping, .. } => damping,
                 _ => f64::NAN,
             }),
@@ -441,19 +441,23 @@ fn compare(
     }
     kind(
         "greatest closing of points [m]",
-        of_contacts("/closing_peak_m", &|own| outcome.peaks.closing(own).value),
+        of_contacts("/closing_peak_m", &|index| {
+            outcome.peaks.closing(index).value
+        }),
     );
     kind(
         "peak force of points [N]",
-        of_contacts("/peak_force_n", &|own| {
-            impacts(own).map(|i| i.peak_force).fold(0.0, f64::max)
+        of_contacts("/peak_force_n", &|index| {
+            impacts(index).map(|i| i.peak_force).fold(0.0, f64::max)
         }),
     );
     kind(
         "impulse of points [N·s]",
-        of_contacts("/impulse_n_s", &|own| impacts(own).map(|i| i.impulse).sum()),
+        of_contacts("/impulse_n_s", &|index| {
+            impacts(index).map(|i| i.impulse).sum()
+        }),
     );
-    for (stored, own) in list(expected, "/contacts").iter().zip(&matched) {
+    for (stored, position) in list(expected, "/contacts").iter().zip(&matched) {
         if stored["ended"].is_null() {
             continue;
         }
@@ -464,15 +468,15 @@ fn compare(
             ("peak forces of impacts [N]", "/peak_forces_n", peaks),
         ] {
             let stored = numbers(stored, key).into_iter();
-            kind(what, stored.zip(impacts(*own).map(got)).collect());
+            kind(what, stored.zip(impacts(*position).map(got)).collect());
         }
     }
     if let Some(stored) = expected["friction_j"].as_f64() {
         let each = |key: &str, got: fn(&jostle::Impact) -> f64| -> Vec<(f64, f64)> {
             let points = list(expected, "/contacts").iter().zip(&matched);
-            let one = |(stored, own): (&Value, &usize)| -> Vec<(f64, f64)> {
+            let one = |(stored, index): (&Value, &usize)| -> Vec<(f64, f64)> {
                 let stored = numbers(stored, key).into_iter();
-                stored.zip(impacts(*own).map(got)).collect()
+                stored.zip(impacts(*index).map(got)).collect()
             };
             points.flat_map(one).collect()
         };
@@ -482,14 +486,14 @@ fn compare(
         );
         kind(
             "impulse of friction of points [N·s]",
-            of_contacts("/tangential_impulse_n_s", &|own| {
-                impacts(own).map(|impact| impact.sliding.impulse).sum()
+            of_contacts("/tangential_impulse_n_s", &|index| {
+                impacts(index).map(|impact| impact.sliding.impulse).sum()
             }),
         );
         kind(
             "work of friction of points [J]",
-            of_contacts("/friction_work_j", &|own| {
-                impacts(own).map(|impact| impact.sliding.friction).sum()
+            of_contacts("/friction_work_j", &|index| {
+                impacts(index).map(|impact| impact.sliding.friction).sum()
             }),
         );
         kind(
@@ -504,22 +508,22 @@ fn compare(
     let faces = list(expected, "/faces").iter().map(|stored| {
         let first = list(stored, "/points")[0].as_u64().expect("a contact") as usize;
         let place = system.contacts[matched[first]].plan.expect("in plan");
-        let own = outcome
+        let face_impacts = outcome
             .face_impacts
             .iter()
             .filter(|impact| impact.face == place.face);
-        let greatest = own
+        let greatest = face_impacts
             .map(|impact| impact.peak_force.value)
             .fold(0.0, f64::max);
         (number(stored, "/peak_force_n"), greatest)
     });
     kind("peak force of faces [N]", faces.collect());
-    for (stored, own) in list(expected, "/contacts").iter().zip(&matched) {
+    for (stored, position) in list(expected, "/contacts").iter().zip(&matched) {
         rows.push(Row::absolute(
             source,
-            format!("tolerance {tolerance:.0e}, impacts of point {own} [–]"),
+            format!("tolerance {tolerance:.0e}, impacts of point {position} [–]"),
             number(stored, "/impact_count"),
-            impacts(*own).count() as f64,
+            impacts(*position).count() as f64,
             0.0,
         ));
         if let Some(ended) = stored["ended"].as_array() {
@@ -527,11 +531,11 @@ fn compare(
                 true => "off",
                 false => "open",
             };
-            let pairs = ended.iter().zip(impacts(*own).map(name));
-            let alike = pairs.filter(|(stored, own)| stored.as_str() == Some(*own));
+            let pairs = ended.iter().zip(impacts(*position).map(name));
+            let alike = pairs.filter(|(stored, candidate)| stored.as_str() == Some(*candidate));
             rows.push(Row::absolute(
                 source,
-                format!("tolerance {tolerance:.0e}, impacts of point {own} that end alike, open or slid off [–]"),
+                format!("tolerance {tolerance:.0e}, impacts of point {position} that end alike, open or slid off [–]"),
                 ended.len() as f64,
                 alike.count() as f64,
                 0.0,
@@ -681,7 +685,7 @@ fn polygons() -> Vec<Row> {
         let off = stored.iter().map(|p| {
             let away = places
                 .iter()
-                .map(|own| (own[0] - p[0]).hypot(own[1] - p[1]));
+                .map(|place| (place[0] - p[0]).hypot(place[1] - p[1]));
             away.fold(f64::INFINITY, f64::min)
         });
         rows.push(Row::absolute(

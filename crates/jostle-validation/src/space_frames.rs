@@ -33,8 +33,8 @@ pub fn rows() -> Vec<Row> {
             "shear = \"flexible\"",
         ),
     ] {
-        let own = MODEL.replace("shear = \"rigid\"", shear);
-        rows.extend(compare(name, &own, &document(text)));
+        let replace = MODEL.replace("shear = \"rigid\"", shear);
+        rows.extend(compare(name, &replace, &document(text)));
     }
     rows
 }
@@ -42,10 +42,14 @@ pub fn rows() -> Vec<Row> {
 fn compare(name: &str, text: &str, case: &Value) -> Vec<Row> {
     let input = model(text);
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let expected = at(case, "/expected");
     let mut rows = Vec::new();
-    let periods: Vec<f64> = own.modes.iter().map(jostle::eigen::Mode::period).collect();
+    let periods: Vec<f64> = building
+        .modes
+        .iter()
+        .map(jostle::eigen::Mode::period)
+        .collect();
     rows.push(Row::worst_of(
         name,
         "periods [s]",
@@ -63,21 +67,21 @@ fn compare(name: &str, text: &str, case: &Value) -> Vec<Row> {
             name,
             format!("effective masses {direction} over the mass"),
             &numbers(expected, &format!("/effective_mass_ratio_{key}")),
-            &own.modes.iter().map(of).collect::<Vec<f64>>(),
+            &building.modes.iter().map(of).collect::<Vec<f64>>(),
             COUPLED,
         ));
     }
     // u_x, u_y and θ, floor by floor.
-    let n = own.floors.len();
-    let dof = |place: usize| own.tracks[(place % 3) * n + place / 3].dof;
+    let n = building.floors.len();
+    let dof = |place: usize| building.tracks[(place % 3) * n + place / 3].dof;
     let stored = list(expected, "/condensed_floor_stiffness");
     // Forces per displacement, couplings with rotations, and torques per rotation.
     let mut parts = [const { (Vec::new(), Vec::new()) }; 3];
     for (column, stored) in stored.iter().enumerate() {
-        let mut unit = vec![0.0; own.equations.len()];
+        let mut unit = vec![0.0; building.equations.len()];
         unit[dof(column)] = 1.0;
         let mut force = vec![0.0; unit.len()];
-        own.equations.stiffness.multiply_add(&unit, &mut force);
+        building.equations.stiffness.multiply_add(&unit, &mut force);
         for (row, wanted) in numbers(stored, "").into_iter().enumerate() {
             let turns = |place: usize| usize::from(place % 3 == 2);
             let (expected, got) = &mut parts[turns(row) + turns(column)];
@@ -94,7 +98,7 @@ fn compare(name: &str, text: &str, case: &Value) -> Vec<Row> {
         rows.push(Row::worst_of(name, what, wanted, got, EXACT));
     }
     for (index, stored) in list(expected, "/static").iter().enumerate() {
-        let mut load = vec![0.0; own.equations.len()];
+        let mut load = vec![0.0; building.equations.len()];
         for floor in 0..n {
             let Some(forces) = at(stored, "/loads").get((floor + 1).to_string()) else {
                 continue;
@@ -104,7 +108,7 @@ fn compare(name: &str, text: &str, case: &Value) -> Vec<Row> {
             }
         }
         let answer =
-            solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
+            solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load).expect("it stands");
         let wanted = numbers(stored, "/displacement");
         for (what, components) in [("displacements", 0..2), ("rotations", 2..3)] {
             let places = (0..3 * n).filter(|place| components.contains(&(place % 3)));

@@ -164,12 +164,12 @@ pub fn page(ways: &[Way]) -> String {
     }
     for way in ways.iter().skip(1) {
         for target in [1e-2, 1e-3] {
-            if let (Some(own), Some(other)) = (work_for(&ways[0], target), work_for(way, target)) {
+            if let (Some(one), Some(other)) = (work_for(&ways[0], target), work_for(way, target)) {
                 let _ = writeln!(
                     text,
                     "- For a force error of {target:e} in 90 % of the pairs, {} needs {:.1} times the work of automatic steps.",
                     way.name,
-                    other / own
+                    other / one
                 );
             }
         }

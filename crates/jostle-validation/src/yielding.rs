@@ -93,7 +93,7 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
         if !wanted.is_empty() {
             let got: Vec<f64> = floors
                 .iter()
-                .map(|own| own.vertical_displacement())
+                .map(|floor| floor.vertical_displacement())
                 .collect();
             let quantity = format!("{}, peak vertical displacements [m]", building.name);
             rows.push(Row::worst_of(&source, quantity, &wanted, &got, tolerance));
@@ -103,16 +103,20 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
         if expected.get("foundation").is_none() {
             continue;
         }
-        let (name, own) = (
+        let (name, foundation) = (
             &system.buildings[index].name,
             outcome.peaks.owned_by(Owner::Foundation(index)),
         );
         for (what, [max, min], got) in [
-            ("sway [m]", ["sway_max_m", "sway_min_m"], own.displacement()),
+            (
+                "sway [m]",
+                ["sway_max_m", "sway_min_m"],
+                foundation.displacement(),
+            ),
             (
                 "rocking [rad]",
                 ["rocking_max_rad", "rocking_min_rad"],
-                own.turning().displacement(),
+                foundation.turning().displacement(),
             ),
         ] {
             let wanted = [max, min].map(|key| number(expected, &format!("/foundation/{key}")));

@@ -83,12 +83,12 @@ fn compare(case: &Case) -> Vec<Row> {
         ("min", |peaks| peaks.displacement_min().value),
     ];
     for (component, (what, peaks)) in directions.into_iter().enumerate() {
-        for (side, own) in sides {
+        for (side, extreme) in sides {
             let floors = list(&expected, &format!("/displacement_{side}")).iter();
             let wanted: Vec<f64> = floors
                 .map(|floor| number(floor, &format!("/{component}")))
                 .collect();
-            let got: Vec<f64> = peaks.iter().map(own).collect();
+            let got: Vec<f64> = peaks.iter().map(extreme).collect();
             let what = format!("{side}. {what}");
             rows.push(Row::worst_of(
                 case.source,
@@ -101,9 +101,10 @@ fn compare(case: &Case) -> Vec<Row> {
     }
     let [path, what] = case.springs;
     let springs = list(&expected, path).iter();
-    let each = |own: &Value| {
-        own.as_f64()
-            .map_or_else(|| numbers(own, ""), |own| vec![own])
+    let each = |spring: &Value| {
+        spring
+            .as_f64()
+            .map_or_else(|| numbers(spring, ""), |value| vec![value])
     };
     let wanted: Vec<f64> = springs.flat_map(each).collect();
     let force = |spring| {

@@ -104,15 +104,19 @@ impl GroundMotion {
     pub fn reversed(&self) -> Self {
         let mut other = self.clone();
         other.scale = -other.scale;
-        if let Some(across) = other.bearing.as_mut().and_then(|own| own.across.as_mut()) {
+        if let Some(across) = other
+            .bearing
+            .as_mut()
+            .and_then(|bearing| bearing.across.as_mut())
+        {
             *across = across.reversed();
         }
-        for own in other
+        for ground in other
             .grounds
             .iter_mut()
             .flat_map(|grounds| &mut grounds.own)
         {
-            own.motion = own.motion.as_ref().map(Self::reversed);
+            ground.motion = ground.motion.as_ref().map(Self::reversed);
         }
         other
     }
@@ -183,28 +187,30 @@ impl GroundMotion {
     /// Sampling step of a record, the finer one of two components; `None` for analytic waves \[s\].
     #[must_use]
     pub fn step(&self) -> Option<f64> {
-        let own = match self.wave {
+        let along = match self.wave {
             Wave::Sampled { step, .. } => Some(step),
             _ => None,
         };
         let across = self.across().and_then(Self::step);
-        own.zip(across)
-            .map(|(own, across)| own.min(across))
-            .or(own)
+        along
+            .zip(across)
+            .map(|(along, across)| along.min(across))
+            .or(along)
             .or(across)
     }
 
     /// Shortest period of an analytic wave; `None` for records \[s\].
     #[must_use]
     pub fn period(&self) -> Option<f64> {
-        let own = match self.wave {
+        let along = match self.wave {
             Wave::Sampled { .. } => None,
             Wave::Sine { period, .. } | Wave::Ricker { period, .. } => Some(period),
         };
         let across = self.across().and_then(Self::period);
-        own.zip(across)
-            .map(|(own, across)| own.min(across))
-            .or(own)
+        along
+            .zip(across)
+            .map(|(along, across)| along.min(across))
+            .or(along)
             .or(across)
     }
 

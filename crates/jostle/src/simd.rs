@@ -99,8 +99,9 @@ pub(crate) fn dots<S: Simd>(simd: S, vectors: &[Vec<f64>], with: &[f64], product
         for first in (0..registers.len()).step_by(used) {
             for r in 0..used {
                 let (at, with) = (first + r, registers[first + r]);
-                let add =
-                    |sum: &mut S::f64s, own| *sum = simd.add_f64s(*sum, simd.mul_f64s(own, with));
+                let add = |sum: &mut S::f64s, factor| {
+                    *sum = simd.add_f64s(*sum, simd.mul_f64s(factor, with))
+                };
                 add(&mut sums[0][r], own_a[at]);
                 add(&mut sums[1][r], own_b[at]);
                 add(&mut sums[2][r], own_c[at]);

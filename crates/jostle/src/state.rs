@@ -241,7 +241,7 @@ impl BuildingSystem {
             .map(|(spring, memory)| spring.in_base_shear * memory.force());
         // What a link between two floors presses on one it presses on the other.
         let inner = self.inner_links.iter();
-        let inner = inner.map(|own| own.of_base() * links[own.link]);
+        let inner = inner.map(|inner_link| inner_link.of_base() * links[inner_link.link]);
         elastic + yielding.sum::<f64>() + inner.sum::<f64>()
     }
 
@@ -303,11 +303,11 @@ impl BuildingSystem {
         for (index, (rows, at)) in mat.rows.iter().zip(&mat.bearings).enumerate() {
             let [x, y] = [0, 1].map(|axis| {
                 let row = &rows[axis];
-                let own = mat.stiffness * row.value(u) + damping * row.value(v);
+                let linear = mat.stiffness * row.value(u) + damping * row.value(v);
                 let first = mat
                     .sliders
                     .map(|first| self.spring_offset + first + 3 * index);
-                own + first.map_or(0.0, |first| state.springs[first + axis].force())
+                linear + first.map_or(0.0, |first| state.springs[first + axis].force())
             });
             sum[0] += x;
             sum[1] += y;
@@ -355,7 +355,7 @@ impl BuildingSystem {
     ) {
         let springs = &state.springs[self.spring_range()];
         let force = |spring: usize| springs[spring].force();
-        let link = |own: usize| links[self.inner_links[own].link];
+        let link = |index: usize| links[self.inner_links[index].link];
         self.storeys
             .for_each(&state.displacement[self.range()], force, link, take);
     }

@@ -113,8 +113,8 @@ impl Attribute {
     pub fn name(self) -> &'static str {
         USUAL
             .iter()
-            .find(|own| own.0 == self)
-            .map_or("", |own| own.1)
+            .find(|candidate| candidate.0 == self)
+            .map_or("", |entry| entry.1)
     }
 }
 
@@ -124,10 +124,10 @@ impl FromStr for Attribute {
     fn from_str(name: &str) -> Result<Self, String> {
         USUAL
             .iter()
-            .find(|own| own.1 == name)
-            .map(|own| own.0)
+            .find(|candidate| candidate.1 == name)
+            .map(|entry| entry.0)
             .ok_or_else(|| {
-                let known: Vec<&str> = USUAL.iter().map(|own| own.1).collect();
+                let known: Vec<&str> = USUAL.iter().map(|entry| entry.1).collect();
                 format!("\"{name}\" is none of {}", known.join(", "))
             })
     }
@@ -140,22 +140,25 @@ pub struct Columns(pub BTreeMap<Attribute, String>);
 impl Columns {
     /// What a column says, by its name in any case.
     pub(crate) fn attribute(&self, column: &str) -> Option<Attribute> {
-        if let Some((own, _)) = self.0.iter().find(|(_, name)| name.as_str() == column) {
-            return Some(*own);
+        if let Some((attribute, _)) = self.0.iter().find(|(_, name)| name.as_str() == column) {
+            return Some(*attribute);
         }
         let lower = column.trim().to_lowercase();
-        let usual = USUAL.iter().find(|own| own.2.contains(&lower.as_str()))?.0;
+        let usual = USUAL
+            .iter()
+            .find(|entry| entry.2.contains(&lower.as_str()))?
+            .0;
         (!self.0.contains_key(&usual)).then_some(usual)
     }
 
     /// Names that stand for an attribute.
     pub(crate) fn names(&self, attribute: Attribute) -> Vec<String> {
-        if let Some(own) = self.0.get(&attribute) {
-            return vec![own.clone()];
+        if let Some(column) = self.0.get(&attribute) {
+            return vec![column.clone()];
         }
-        let usual = USUAL.iter().find(|own| own.0 == attribute);
-        usual.map_or_else(Vec::new, |own| {
-            own.2.iter().map(|name| (*name).to_owned()).collect()
+        let usual = USUAL.iter().find(|candidate| candidate.0 == attribute);
+        usual.map_or_else(Vec::new, |usual| {
+            usual.2.iter().map(|name| (*name).to_owned()).collect()
         })
     }
 }

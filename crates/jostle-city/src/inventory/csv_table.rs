@@ -18,14 +18,14 @@ pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityE
         .headers()
         .map_err(fault)?
         .iter()
-        .map(|own| own.trim_start_matches('\u{feff}').trim().to_owned())
+        .map(|header| header.trim_start_matches('\u{feff}').trim().to_owned())
         .collect();
     let wanted = gathered.geometry_names();
     let geometry = header
         .iter()
-        .position(|own| wanted.contains(own) || wanted.contains(&own.to_lowercase()));
+        .position(|header| wanted.contains(header) || wanted.contains(&header.to_lowercase()));
     let Some(geometry) = geometry else {
-        let known = |lower: &str| header.iter().any(|own| own.to_lowercase() == lower);
+        let known = |lower: &str| header.iter().any(|header| header.to_lowercase() == lower);
         let points = known("latitude") || known("lat");
         let problem = if points {
             "there are only points (latitude and longitude): neighbours need outlines, in a column \"Footprint\" as WKT or \
@@ -72,11 +72,13 @@ fn footprint(text: &str) -> Result<Geometry<f64>, String> {
         .parse()
         .map_err(|error| format!("no GeoJSON: {error}"))?;
     let geometry = match parsed {
-        GeoJson::Geometry(own) => Some(own),
-        GeoJson::Feature(own) => own.geometry,
-        GeoJson::FeatureCollection(own) => {
-            own.features.into_iter().next().and_then(|own| own.geometry)
-        }
+        GeoJson::Geometry(geometry) => Some(geometry),
+        GeoJson::Feature(feature) => feature.geometry,
+        GeoJson::FeatureCollection(collection) => collection
+            .features
+            .into_iter()
+            .next()
+            .and_then(|feature| feature.geometry),
     };
     let geometry = geometry.ok_or("no geometry")?;
     outlines(geometry)

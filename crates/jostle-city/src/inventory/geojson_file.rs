@@ -33,7 +33,7 @@ pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityE
 pub(super) fn record(feature: Feature, row: usize) -> Record {
     let text = |value: JsonValue| match value {
         JsonValue::Null => None,
-        JsonValue::String(own) => Some(own).filter(|own| !own.trim().is_empty()),
+        JsonValue::String(content) => Some(content).filter(|content| !content.trim().is_empty()),
         other => Some(other.to_string()),
     };
     let mut fields: Vec<(String, String)> = feature
@@ -44,14 +44,14 @@ pub(super) fn record(feature: Feature, row: usize) -> Record {
         .collect();
     if let Some(id) = feature.id {
         let id = match id {
-            geojson::feature::Id::String(own) => own,
-            geojson::feature::Id::Number(own) => own.to_string(),
+            geojson::feature::Id::String(id) => id,
+            geojson::feature::Id::Number(number) => number.to_string(),
         };
         fields.push(("id".into(), id));
     }
     let geometry = match feature.geometry {
         None => Err("no geometry".to_owned()),
-        Some(own) => outlines(own),
+        Some(geometry) => outlines(geometry),
     };
     Record {
         row,
@@ -61,14 +61,14 @@ pub(super) fn record(feature: Feature, row: usize) -> Record {
 }
 
 /// The outlines of a geometry. Positions of fewer than two numbers would end the conversion.
-pub(super) fn outlines(own: geojson::Geometry) -> Result<Geometry<f64>, String> {
+pub(super) fn outlines(geometry: geojson::Geometry) -> Result<Geometry<f64>, String> {
     let whole = |polygon: &Vec<Vec<geojson::Position>>| {
         polygon
             .iter()
             .flatten()
-            .all(|own| own.as_slice().len() >= 2)
+            .all(|polygon| polygon.as_slice().len() >= 2)
     };
-    let sound = match &own.value {
+    let sound = match &geometry.value {
         GeometryValue::Polygon { coordinates } => whole(coordinates),
         GeometryValue::MultiPolygon { coordinates } => coordinates.iter().all(whole),
         GeometryValue::Point { .. } | GeometryValue::MultiPoint { .. } => {
@@ -79,5 +79,5 @@ pub(super) fn outlines(own: geojson::Geometry) -> Result<Geometry<f64>, String> 
     if !sound {
         return Err("a position of fewer than two numbers".to_owned());
     }
-    Geometry::try_from(own).map_err(|error| error.to_string())
+    Geometry::try_from(geometry).map_err(|error| error.to_string())
 }

@@ -36,12 +36,12 @@ fn read_whole(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError>
     let geo = notes
         .into_iter()
         .flatten()
-        .find(|own| own.key == "geo")
-        .and_then(|own| own.value);
-    let geo: Option<Value> = geo.and_then(|own| serde_json::from_str(&own).ok());
-    let primary = geo.as_ref().and_then(|own| own["primary_column"].as_str());
+        .find(|note| note.key == "geo")
+        .and_then(|note| note.value);
+    let geo: Option<Value> = geo.and_then(|geo| serde_json::from_str(&geo).ok());
+    let primary = geo.as_ref().and_then(|geo| geo["primary_column"].as_str());
     let names = match primary {
-        Some(own) => vec![own.to_owned()],
+        Some(primary) => vec![primary.to_owned()],
         None => gathered.geometry_names(),
     };
     let mut found = false;
@@ -52,7 +52,7 @@ fn read_whole(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError>
         let mut fields = Vec::new();
         for (name, field) in row.into_columns() {
             let bytes = match &field {
-                Field::Bytes(own) if names.contains(&name) => Some(own),
+                Field::Bytes(bytes) if names.contains(&name) => Some(bytes),
                 _ => None,
             };
             if let Some(bytes) = bytes {
@@ -66,7 +66,7 @@ fn read_whole(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError>
                 | Field::Group(_)
                 | Field::ListInternal(_)
                 | Field::MapInternal(_) => continue,
-                Field::Str(own) => own,
+                Field::Str(field) => field,
                 other => other.to_string(),
             };
             if !text.trim().is_empty() {

@@ -51,7 +51,7 @@ pub(super) fn read(
     let mut across = None;
     for at in &nearest.used {
         let listed = folder.join(&files[*at]);
-        let mut own = Vec::new();
+        let mut strengths = Vec::new();
         let has_factor = std::cell::Cell::new(None);
         rows(
             &listed,
@@ -60,13 +60,13 @@ pub(super) fn read(
                 has_factor.set(
                     header
                         .iter()
-                        .position(|own| own.eq_ignore_ascii_case("factor")),
+                        .position(|header| header.eq_ignore_ascii_case("factor")),
                 );
                 Ok(())
             },
             &mut |line, [file], row| {
                 let factor = has_factor.get().and_then(|at| row.get(at));
-                let factor = match factor.filter(|own| !own.is_empty()) {
+                let factor = match factor.filter(|factor| !factor.is_empty()) {
                     Some(text) => number(&listed, line, "factor", text)?,
                     None => 1.0,
                 };
@@ -92,27 +92,27 @@ pub(super) fn read(
                         sources.len() - 1
                     }
                 };
-                own.push(Strength { motion, factor });
+                strengths.push(Strength { motion, factor });
                 Ok(())
             },
         )?;
-        if own.is_empty() {
+        if strengths.is_empty() {
             return Err(CityError::of(&listed, "lists no record"));
         }
         if let Some(first) = places.first()
-            && first.len() != own.len()
+            && first.len() != strengths.len()
         {
             return Err(CityError::of(
                 &listed,
                 format!(
                     "lists {} records, and {} lists {}: every point needs as many",
-                    own.len(),
+                    strengths.len(),
                     files[nearest.used[0]],
                     first.len()
                 ),
             ));
         }
-        places.push(own);
+        places.push(strengths);
     }
     let count = places.first().map_or(0, Vec::len);
     if count == 0 {
@@ -143,7 +143,7 @@ fn record_path(listed: &Path, name: &str) -> PathBuf {
     let folder = listed.parent().unwrap_or(Path::new(""));
     let is_json = Path::new(name)
         .extension()
-        .is_some_and(|own| own.eq_ignore_ascii_case("json"));
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
     folder.join(if is_json {
         name.to_owned()
     } else {
@@ -159,7 +159,10 @@ fn has_component(record: &Path, component: &str) -> Result<bool, CityError> {
         ..RecordOptions::default()
     };
     let info = parse_info(&bytes, &options).map_err(|error| CityError::of(record, error))?;
-    Ok(info.channels.iter().any(|own| own.name == component))
+    Ok(info
+        .channels
+        .iter()
+        .any(|channel| channel.name == component))
 }
 
 /// A record with its component y, if there is one, a right angle from x.

@@ -84,7 +84,7 @@ pub(super) fn read(
                 return Ok(());
             };
             let (periods, columns) = &*both.borrow();
-            let mut own = Vec::with_capacity(columns.len());
+            let mut intensities = Vec::with_capacity(columns.len());
             for (at, period) in columns.iter().zip(periods.iter()) {
                 let text = row.get(*at).unwrap_or("");
                 let value = number(path, line, &measure_name(*period), text)?;
@@ -97,9 +97,9 @@ pub(super) fn read(
                         ),
                     ));
                 }
-                own.push(value * STANDARD_GRAVITY);
+                intensities.push(value * STANDARD_GRAVITY);
             }
-            values.push((*place, event, own));
+            values.push((*place, event, intensities));
             Ok(())
         },
     )?;
@@ -115,10 +115,10 @@ pub(super) fn read(
     let still = vec![0.0; periods.len()];
     let mut places = vec![vec![still; events.len()]; nearest.used.len()];
     let given = values.len();
-    for (place, event, own) in values {
-        places[place][order[event]] = own;
+    for (place, event, intensities) in values {
+        places[place][order[event]] = intensities;
     }
-    let greatest = places.iter().flatten().filter_map(|own| own.first());
+    let greatest = places.iter().flatten().filter_map(|place| place.first());
     let greatest = greatest.copied().fold(0.0, f64::max);
     let all = places.len() * events.len();
     Ok(Intensities {

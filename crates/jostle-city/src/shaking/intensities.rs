@@ -63,11 +63,13 @@ pub(super) fn scaled(
         .places
         .iter()
         .map(|events| {
-            let best = events.iter().flat_map(|own| best(&spectra, own, choose));
-            best.inspect(|own| {
+            let best = events
+                .iter()
+                .flat_map(|event| best(&spectra, event, choose));
+            best.inspect(|strength| {
                 all += 1;
-                let far = libm::log(own.factor).abs() > libm::log(GREATEST_FACTOR);
-                beyond += usize::from(own.factor > 0.0 && far);
+                let far = libm::log(strength.factor).abs() > libm::log(GREATEST_FACTOR);
+                beyond += usize::from(strength.factor > 0.0 && far);
             })
             .collect()
         })
@@ -79,9 +81,9 @@ pub(super) fn scaled(
         })
     });
     let mut told = vec![found.told.clone()];
-    let factors = || places.iter().flatten().map(|own| own.factor);
-    let ends = factors().fold([f64::INFINITY, 0.0], |[least, most], own| {
-        [least.min(own), f64::max(most, own)]
+    let factors = || places.iter().flatten().map(|place| place.factor);
+    let ends = factors().fold([f64::INFINITY, 0.0], |[least, most], factor| {
+        [least.min(factor), f64::max(most, factor)]
     });
     if all > 0 {
         told.push(format!(
@@ -117,7 +119,7 @@ pub(super) fn scaled(
 
 /// The records whose spectra have the shape of the intensities, each scaled to their mean logarithm.
 fn best(spectra: &[Vec<f64>], wanted: &[f64], choose: usize) -> Vec<Strength> {
-    if wanted.iter().all(|own| *own <= 0.0) {
+    if wanted.iter().all(|candidate| *candidate <= 0.0) {
         let still = |motion| Strength {
             motion,
             factor: 0.0,
@@ -127,16 +129,18 @@ fn best(spectra: &[Vec<f64>], wanted: &[f64], choose: usize) -> Vec<Strength> {
     let mut ranked: Vec<(bool, f64, f64, usize)> = spectra
         .iter()
         .enumerate()
-        .map(|(motion, own)| {
+        .map(|(motion, spectra)| {
             let ratios: Vec<f64> = wanted
                 .iter()
-                .zip(own)
+                .zip(spectra)
                 .filter(|both| *both.0 > 0.0)
-                .map(|(wanted, own)| libm::log(wanted / own))
+                .map(|(wanted, ordinate)| libm::log(wanted / ordinate))
                 .collect();
             let count = ratios.len() as f64;
             let mean = ratios.iter().sum::<f64>() / count;
-            let squares = ratios.iter().map(|own| (own - mean) * (own - mean));
+            let squares = ratios
+                .iter()
+                .map(|ratios| (ratios - mean) * (ratios - mean));
             let misfit = (squares.sum::<f64>() / count).sqrt();
             let far = mean.abs() > libm::log(GREATEST_FACTOR);
             // Of records that are too weak or too strong, the nearest; of others, the likest.
@@ -153,9 +157,9 @@ fn best(spectra: &[Vec<f64>], wanted: &[f64], choose: usize) -> Vec<Strength> {
             .then(a.1.total_cmp(&b.1))
             .then(a.3.cmp(&b.3))
     });
-    let strength = |own: &(bool, f64, f64, usize)| Strength {
-        motion: own.3,
-        factor: libm::exp(own.2),
+    let strength = |candidate: &(bool, f64, f64, usize)| Strength {
+        motion: candidate.3,
+        factor: libm::exp(candidate.2),
     };
     ranked[..choose].iter().map(strength).collect()
 }
@@ -177,13 +181,16 @@ fn spectrum(motion: &GroundMotion, periods: &[f64]) -> Result<Vec<f64>, CityErro
         Ok(spectrum.curves[0].pseudo_acceleration.clone())
     };
     let mut values = one(motion)?;
-    let across = motion.bearing.as_ref().and_then(|own| own.across.as_ref());
+    let across = motion
+        .bearing
+        .as_ref()
+        .and_then(|bearing| bearing.across.as_ref());
     if let Some(across) = across {
-        for (own, other) in values.iter_mut().zip(one(across)?) {
-            *own = (*own * other).sqrt();
+        for (one, other) in values.iter_mut().zip(one(across)?) {
+            *one = (*one * other).sqrt();
         }
     }
-    if values.iter().any(|own| *own <= 0.0) {
+    if values.iter().any(|candidate| *candidate <= 0.0) {
         return Err(fault("has no motion to scale".to_owned()));
     }
     Ok(values)

@@ -60,7 +60,7 @@ impl Shaking {
         blocks: &[Block],
     ) -> Result<Self, CityError> {
         let mut place_of = vec![0; inventory.buildings.len()];
-        let own = match &file.motion {
+        let shaking = match &file.motion {
             CityMotion::Common(spec) => {
                 let sources = resolved(spec)?;
                 let strengths = (0..sources.len()).map(|motion| Strength {
@@ -103,7 +103,10 @@ impl Shaking {
                 intensities::scaled(sources, &found, *choose)?
             }
         };
-        Ok(Self { place_of, ..own })
+        Ok(Self {
+            place_of,
+            ..shaking
+        })
     }
 
     /// Names of the motions that every place has.
@@ -140,7 +143,7 @@ impl Shaking {
     pub(crate) fn motion(&self, motion: usize) -> Result<Cow<'_, GroundMotion>, CityError> {
         let source = &self.sources[motion];
         match &source.resolved {
-            Some(own) => Ok(Cow::Borrowed(own)),
+            Some(motion) => Ok(Cow::Borrowed(motion)),
             None => resolve(&source.spec).map(Cow::Owned),
         }
     }
@@ -149,7 +152,7 @@ impl Shaking {
     pub(crate) fn hash(&self, hash: &mut Sha256) -> Result<(), CityError> {
         for source in &self.sources {
             match &source.resolved {
-                Some(own) => hash.update(format!("{own:?}")),
+                Some(motion) => hash.update(format!("{motion:?}")),
                 None => event_grid::hash(&source.spec, hash)?,
             }
         }
@@ -164,13 +167,13 @@ impl Source {
     fn name(&self) -> String {
         self.resolved
             .as_ref()
-            .map_or_else(String::new, |own| own.name.clone())
+            .map_or_else(String::new, |motion| motion.name.clone())
     }
 
     fn has_bearing(&self) -> bool {
         self.resolved
             .as_ref()
-            .is_some_and(|own| own.bearing.is_some())
+            .is_some_and(|motion| motion.bearing.is_some())
     }
 }
 

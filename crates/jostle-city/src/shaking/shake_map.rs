@@ -55,7 +55,7 @@ pub(super) fn read(
     for block in blocks {
         let at = inventory.plane.original(place(inventory, block));
         match grid.at([at.x, at.y]) {
-            Some(own) => places.push(vec![own]),
+            Some(intensities) => places.push(vec![intensities]),
             None => {
                 outside += block.buildings.len();
                 first = first.or(Some(block.buildings[0]));
@@ -75,22 +75,22 @@ pub(super) fn read(
         )));
     }
     spread(blocks, &(0..blocks.len()).collect::<Vec<_>>(), place_of);
-    let ends = |own: &Field, at: usize| {
+    let ends = |field: &Field, at: usize| {
         let all = places.iter().map(|events: &Vec<Vec<f64>>| events[0][at]);
-        let [least, most] = all.fold([f64::INFINITY, 0.0], |[least, most], own| {
-            [f64::min(least, own), f64::max(most, own)]
+        let [least, most] = all.fold([f64::INFINITY, 0.0], |[least, most], event| {
+            [f64::min(least, event), f64::max(most, event)]
         });
         format!(
             "{} {:.3} to {:.3} g",
-            measure_name(own.period),
+            measure_name(field.period),
             least / STANDARD_GRAVITY,
             most / STANDARD_GRAVITY
         )
     };
     let fields = grid.fields.iter().enumerate();
-    let shown: Vec<String> = fields.map(|(at, own)| ends(own, at)).collect();
+    let shown: Vec<String> = fields.map(|(at, field)| ends(field, at)).collect();
     Ok(Intensities {
-        periods: grid.fields.iter().map(|own| own.period).collect(),
+        periods: grid.fields.iter().map(|field| field.period).collect(),
         events: vec![grid.event.clone()],
         told: format!(
             "{}, {} × {} points: at the blocks {}",
@@ -116,30 +116,38 @@ impl Grid {
                 .read_event()
                 .map_err(|error| format!("is no XML: {error}"))?;
             match found {
-                Event::Start(own) | Event::Empty(own) => match own.local_name().as_ref() {
-                    "event" => {
-                        if let Some(name) = attribute(&own, "event_description")
-                            .or_else(|| attribute(&own, "event_id"))
-                        {
-                            event = name;
+                Event::Start(element) | Event::Empty(element) => {
+                    match element.local_name().as_ref() {
+                        "event" => {
+                            if let Some(name) = attribute(&element, "event_description")
+                                .or_else(|| attribute(&element, "event_id"))
+                            {
+                                event = name;
+                            }
                         }
+                        "grid_specification" => specification = Some(corners(&element)?),
+                        "grid_field" => {
+                            let index = attribute(&element, "index")
+                                .and_then(|attribute| attribute.parse().ok());
+                            let index = index
+                                .filter(|index| (1..=1000).contains(index))
+                                .ok_or("a grid_field has no index from 1")?;
+                            let name =
+                                attribute(&element, "name").ok_or("a grid_field has no name")?;
+                            names.push((
+                                index,
+                                name,
+                                attribute(&element, "units").unwrap_or_default(),
+                            ));
+                        }
+                        "grid_data" => inside = true,
+                        _ => {}
                     }
-                    "grid_specification" => specification = Some(corners(&own)?),
-                    "grid_field" => {
-                        let index = attribute(&own, "index").and_then(|own| own.parse().ok());
-                        let index = index
-                            .filter(|own| (1..=1000).contains(own))
-                            .ok_or("a grid_field has no index from 1")?;
-                        let name = attribute(&own, "name").ok_or("a grid_field has no name")?;
-                        names.push((index, name, attribute(&own, "units").unwrap_or_default()));
-                    }
-                    "grid_data" => inside = true,
-                    _ => {}
-                },
-                Event::Text(own) if inside => {
-                    data.get_or_insert_with(String::new).push_str(&own);
                 }
-                Event::End(own) if own.local_name().as_ref() == "grid_data" => inside = false,
+                Event::Text(event) if inside => {
+                    data.get_or_insert_with(String::new).push_str(&event);
+                }
+                Event::End(end) if end.local_name().as_ref() == "grid_data" => inside = false,
                 Event::Eof => break,
                 _ => {}
             }
@@ -148,9 +156,11 @@ impl Grid {
             specification.ok_or("has no grid_specification: give the grid.xml of a ShakeMap")?;
         let data = data.ok_or("has no grid_data")?;
         let column = |wanted: &str| {
-            let found = names.iter().find(|own| own.1.eq_ignore_ascii_case(wanted));
+            let found = names
+                .iter()
+                .find(|name| name.1.eq_ignore_ascii_case(wanted));
             found
-                .map(|own| own.0 - 1)
+                .map(|name| name.0 - 1)
                 .ok_or_else(|| format!("has no grid_field {wanted}"))
         };
         let [longitude, latitude] = [column("LON")?, column("LAT")?];
@@ -175,9 +185,9 @@ impl Grid {
         if fields.is_empty() {
             return Err("has neither PGA nor spectral accelerations (PSA03, PSA10, PSA30)".into());
         }
-        let mut own = Self {
+        let mut grid = Self {
             event,
-            columns: names.iter().map(|own| own.0).max().unwrap_or(0),
+            columns: names.iter().map(|name| name.0).max().unwrap_or(0),
             longitude,
             latitude,
             fields,
@@ -186,8 +196,8 @@ impl Grid {
             counts,
             values: Vec::new(),
         };
-        own.fill(&data)?;
-        Ok(own)
+        grid.fill(&data)?;
+        Ok(grid)
     }
 
     /// Takes the rows of the grid, in any order.
@@ -225,22 +235,22 @@ impl Grid {
             }
             let start = (place[1] * self.counts[0] + place[0]) * self.fields.len();
             for (value, field) in self.values[start..].iter_mut().zip(&self.fields) {
-                let own = row[field.column];
+                let row = row[field.column];
                 // Where nothing is known, no shaking would be a guess.
-                let of_g = own * field.unit / STANDARD_GRAVITY;
+                let of_g = row * field.unit / STANDARD_GRAVITY;
                 if !(0.0..=GREATEST).contains(&of_g) {
                     return Err(format!(
-                        "{} of point {at} is {own}: it must lie between 0 and {GREATEST} g",
+                        "{} of point {at} is {row}: it must lie between 0 and {GREATEST} g",
                         measure_name(field.period)
                     ));
                 }
-                *value = own * field.unit;
+                *value = row * field.unit;
             }
         }
         if numbers.next().is_some() {
             return Err(format!("grid_data has more than {points} points"));
         }
-        if self.values.iter().any(|own| own.is_nan()) {
+        if self.values.iter().any(|intensity| intensity.is_nan()) {
             return Err("grid_data has some points twice and others never".to_owned());
         }
         Ok(())
@@ -260,16 +270,16 @@ impl Grid {
             share[axis] = steps - cell[axis] as f64;
         }
         let count = self.fields.len();
-        let mut own = vec![0.0; count];
+        let mut intensities = vec![0.0; count];
         for (east, north) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             let weigh = |side: usize, share: f64| if side == 1 { share } else { 1.0 - share };
             let weight = weigh(east, share[0]) * weigh(north, share[1]);
             let start = ((cell[1] + north) * self.counts[0] + cell[0] + east) * count;
-            for (own, value) in own.iter_mut().zip(&self.values[start..]) {
-                *own += weight * value;
+            for (intensity, value) in intensities.iter_mut().zip(&self.values[start..]) {
+                *intensity += weight * value;
             }
         }
-        Some(own)
+        Some(intensities)
     }
 }
 
@@ -295,12 +305,12 @@ fn period(name: &str) -> Option<f64> {
 /// First corner, spacing and counts of a grid.
 type Corners = ([f64; 2], [f64; 2], [usize; 2]);
 
-fn corners(own: &BytesStart<'_>) -> Result<Corners, String> {
+fn corners(element: &BytesStart<'_>) -> Result<Corners, String> {
     let number = |name: &str| {
-        let text = attribute(own, name);
-        let value = text.and_then(|own| own.parse::<f64>().ok());
+        let text = attribute(element, name);
+        let value = text.and_then(|attribute| attribute.parse::<f64>().ok());
         value
-            .filter(|own| own.is_finite())
+            .filter(|number| number.is_finite())
             .ok_or_else(|| format!("grid_specification has no number {name}"))
     };
     let first = [number("lon_min")?, number("lat_min")?];
@@ -308,7 +318,7 @@ fn corners(own: &BytesStart<'_>) -> Result<Corners, String> {
     let counts = [number("nlon")?, number("nlat")?];
     if counts
         .iter()
-        .any(|own| !(2.0..=1e5).contains(own) || own.fract() != 0.0)
+        .any(|candidate| !(2.0..=1e5).contains(candidate) || candidate.fract() != 0.0)
     {
         return Err("grid_specification: nlon and nlat must lie between 2 and 100000".to_owned());
     }
@@ -316,11 +326,11 @@ fn corners(own: &BytesStart<'_>) -> Result<Corners, String> {
         return Err("grid_specification: there must be at most 1e8 points, from lon_min and lat_min to greater lon_max and lat_max".to_owned());
     }
     let spacing = [0, 1].map(|axis| (last[axis] - first[axis]) / (counts[axis] - 1.0));
-    Ok((first, spacing, counts.map(|own| own as usize)))
+    Ok((first, spacing, counts.map(|count| count as usize)))
 }
 
-fn attribute(own: &BytesStart<'_>, name: &str) -> Option<String> {
-    let found = own.try_get_attribute(name).ok()??;
+fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
+    let found = element.try_get_attribute(name).ok()??;
     let value = found.normalized_value(XmlVersion::Implicit1_0).ok()?;
     Some(value.trim().to_owned())
 }
@@ -345,7 +355,7 @@ mod tests {
     fn a_plane_of_intensities_is_met_between_its_points() {
         let grid = Grid::parse(&map(DATA)).expect("a grid");
         assert_eq!(grid.event, "Somewhere");
-        let periods: Vec<f64> = grid.fields.iter().map(|own| own.period).collect();
+        let periods: Vec<f64> = grid.fields.iter().map(|field| field.period).collect();
         assert_eq!(periods, [0.0, 0.3]);
         // PGA rises by 100 %g in a degree east and falls by 400 in a degree north.
         for [x, y] in [[10.0, 40.0], [10.13, 40.02], [10.2, 40.1]] {

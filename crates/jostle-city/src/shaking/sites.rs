@@ -46,8 +46,8 @@ impl Nearest {
         blocks: &[Block],
     ) -> Result<Self, CityError> {
         let placed = points.iter().enumerate().map(|(at, [x, y])| {
-            let own = inventory.plane.metres(Coord { x: *x, y: *y });
-            GeomWithData::new([own.x, own.y], at)
+            let metres = inventory.plane.metres(Coord { x: *x, y: *y });
+            GeomWithData::new([metres.x, metres.y], at)
         });
         let tree = RTree::bulk_load(placed.collect());
         let mut nearest = Vec::with_capacity(blocks.len());
@@ -83,7 +83,7 @@ impl Nearest {
         used.dedup();
         let of_block = nearest
             .iter()
-            .map(|own| used.binary_search(own).unwrap_or_default())
+            .map(|nearest| used.binary_search(nearest).unwrap_or_default())
             .collect();
         Ok(Self {
             used,
@@ -132,13 +132,15 @@ pub(super) fn rows<const N: usize>(
         .headers()
         .map_err(fault)?
         .iter()
-        .map(|own| own.trim_start_matches('\u{feff}').to_owned())
+        .map(|header| header.trim_start_matches('\u{feff}').to_owned())
         .collect();
     let mut columns = [0; N];
     for (column, spellings) in columns.iter_mut().zip(names) {
-        let found = header
-            .iter()
-            .position(|own| spellings.iter().any(|name| own.eq_ignore_ascii_case(name)));
+        let found = header.iter().position(|header| {
+            spellings
+                .iter()
+                .any(|name| header.eq_ignore_ascii_case(name))
+        });
         *column = found.ok_or_else(|| {
             CityError::of(
                 path,
@@ -153,7 +155,9 @@ pub(super) fn rows<const N: usize>(
     more(&header)?;
     for row in table.records() {
         let row = row.map_err(fault)?;
-        let line = row.position().map_or(0, |own| own.line() as usize);
+        let line = row
+            .position()
+            .map_or(0, |position| position.line() as usize);
         let fields = columns.map(|at| row.get(at).unwrap_or(""));
         take(line, fields, &row)?;
     }
@@ -162,7 +166,7 @@ pub(super) fn rows<const N: usize>(
 
 /// A number of a table, which must be finite.
 pub(super) fn number(path: &Path, line: usize, name: &str, text: &str) -> Result<f64, CityError> {
-    let value = text.parse::<f64>().ok().filter(|own| own.is_finite());
+    let value = text.parse::<f64>().ok().filter(|number| number.is_finite());
     value.ok_or_else(|| {
         CityError::of(
             path,

@@ -31,15 +31,15 @@ fn rings_that_cross_or_touch_themselves_keep_their_largest_part() {
     let kept: Vec<(&str, f64)> = inventory
         .buildings
         .iter()
-        .map(|own| (own.id.as_str(), own.area))
+        .map(|building| (building.id.as_str(), building.area))
         .collect();
     let what: Vec<(&str, &str)> = inventory
         .mends
         .iter()
-        .map(|own| (own.id.as_str(), own.what))
+        .map(|mend| (mend.id.as_str(), mend.what))
         .collect();
     // The lines y = x and y = 20 − x/3 of the bow tie cross at x = 15: triangles of 150 m² each.
-    let area = |name: &str| kept.iter().find(|own| own.0 == name).unwrap().1;
+    let area = |name: &str| kept.iter().find(|candidate| candidate.0 == name).unwrap().1;
     assert!((area("bow") - 150.0).abs() < 1e-6, "{kept:?}");
     assert!((area("two") - 100.0).abs() < 1e-9);
     assert!(area("pinch") >= 100.0, "{kept:?}");
@@ -73,13 +73,18 @@ fn footprints_of_r2d_are_read_from_a_column_of_json() {
     let path = folder.path().join("r2d.csv");
     std::fs::write(&path, text).unwrap();
     let inventory = Inventory::read(&path, &ReadOptions::default()).unwrap();
-    let own = &inventory.buildings[0];
+    let building = &inventory.buildings[0];
     assert_eq!(
-        (own.id.as_str(), own.storeys, own.year, own.kind.as_deref()),
+        (
+            building.id.as_str(),
+            building.storeys,
+            building.year,
+            building.kind.as_deref()
+        ),
         ("7", Some(3), Some(1927), Some("URM"))
     );
     // 1e-4° of longitude and latitude there: 8.80 m and 11.10 m.
-    assert!((own.area - 97.7).abs() < 0.2, "{}", own.area);
+    assert!((building.area - 97.7).abs() < 0.2, "{}", building.area);
 }
 
 #[test]
@@ -158,7 +163,12 @@ fn geometries_within_geometries_without_end_are_refused() {
     ];
     let mut square: Vec<u8> =
         [[1, 3, 0, 0, 0, 1, 0, 0, 0].as_slice(), &5_u32.to_le_bytes()].concat();
-    square.extend(corners.iter().flatten().flat_map(|own| own.to_le_bytes()));
+    square.extend(
+        corners
+            .iter()
+            .flatten()
+            .flat_map(|corner| corner.to_le_bytes()),
+    );
     let cut = square[..square.len() - 9].to_vec();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("deep.parquet");

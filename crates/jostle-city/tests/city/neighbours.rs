@@ -41,25 +41,25 @@ fn pairs_are_those_of_all_against_all() {
     let buildings: Vec<Building> = sizes
         .iter()
         .enumerate()
-        .map(|(n, own)| rectangle(n, *own, 2))
+        .map(|(n, size)| rectangle(n, *size, 2))
         .collect();
     let found = Neighbours::within(&buildings, 0.5);
     let mut near = BTreeSet::new();
     let mut overlaps = BTreeSet::new();
     for a in 0..sizes.len() {
         for b in a + 1..sizes.len() {
-            let [own, other] = [sizes[a], sizes[b]];
+            let [size, other] = [sizes[a], sizes[b]];
             let apart = |axis: usize| {
-                (other[axis] - own[axis] - own[axis + 2])
-                    .max(own[axis] - other[axis] - other[axis + 2])
+                (other[axis] - size[axis] - size[axis + 2])
+                    .max(size[axis] - other[axis] - other[axis + 2])
             };
             let [x, y] = [apart(0), apart(1)];
             if x < 0.0 && y < 0.0 {
                 let shared = |axis: usize| {
-                    (own[axis] + own[axis + 2]).min(other[axis] + other[axis + 2])
-                        - own[axis].max(other[axis])
+                    (size[axis] + size[axis + 2]).min(other[axis] + other[axis + 2])
+                        - size[axis].max(other[axis])
                 };
-                if shared(0) * shared(1) > 0.2 * (own[2] * own[3]).min(other[2] * other[3]) {
+                if shared(0) * shared(1) > 0.2 * (size[2] * size[3]).min(other[2] * other[3]) {
                     overlaps.insert([a, b]);
                     continue;
                 }
@@ -115,7 +115,7 @@ fn faces_normals_and_places_are_those_of_the_drawing() {
     assert_eq!(found.len(), 1);
     assert!(found[0].is_tree());
     let lines = rows(&found[0], &pairs, |pair| pairs[pair].distance);
-    let buildings: Vec<_> = lines.iter().map(|own| own.buildings.clone()).collect();
+    let buildings: Vec<_> = lines.iter().map(|line| line.buildings.clone()).collect();
     assert_eq!(buildings, [vec![0, 1, 2], vec![2, 3]]);
 }
 
@@ -135,19 +135,19 @@ fn the_example_has_the_statistics_of_a_dense_city_and_every_pair_is_in_one_row()
     let found = Neighbours::within(&inventory.buildings, 0.5);
     assert!(found.overlaps.is_empty());
     let all = blocks(&found.pairs, count);
-    let held: usize = all.iter().map(|own| own.buildings.len()).sum();
+    let held: usize = all.iter().map(|block| block.buildings.len()).sum();
     let share = held as f64 / count as f64;
     assert!((share - 0.51).abs() < 0.03, "{share} have a neighbour");
-    let mut sizes: Vec<usize> = all.iter().map(|own| own.buildings.len()).collect();
+    let mut sizes: Vec<usize> = all.iter().map(|block| block.buildings.len()).collect();
     sizes.sort_unstable();
     let quantile = |of: f64| sizes[(of * (sizes.len() - 1) as f64) as usize];
     assert!((5..=7).contains(&quantile(0.9)), "{}", quantile(0.9));
     assert!((10..=14).contains(&quantile(0.99)), "{}", quantile(0.99));
     let mut pairs: Vec<usize> = all
         .iter()
-        .flat_map(|own| rows(own, &found.pairs, |pair| found.pairs[pair].distance))
-        .inspect(|own| assert_eq!(own.pairs.len() + 1, own.buildings.len()))
-        .flat_map(|own| own.pairs)
+        .flat_map(|block| rows(block, &found.pairs, |pair| found.pairs[pair].distance))
+        .inspect(|row| assert_eq!(row.pairs.len() + 1, row.buildings.len()))
+        .flat_map(|row| row.pairs)
         .collect();
     pairs.sort_unstable();
     assert_eq!(pairs, (0..found.pairs.len()).collect::<Vec<_>>());

@@ -19,21 +19,21 @@ fn city(folder: &Path, buildings: usize, extra: &str) -> City {
 }
 
 fn run(
-    own: &City,
+    city: &City,
     out: &Path,
     shard: Option<(usize, usize)>,
 ) -> Result<jostle_city::Done, CityError> {
-    own.run(out, RunOptions { shard }, &|| false, &mut |_| {})
+    city.run(out, RunOptions { shard }, &|| false, &mut |_| {})
 }
 
 fn bytes_of(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut all: Vec<_> = std::fs::read_dir(folder.join("runs"))
         .unwrap()
-        .map(|own| own.unwrap().path())
-        .map(|own| {
+        .map(|dir| dir.unwrap().path())
+        .map(|path| {
             (
-                own.file_name().unwrap().to_string_lossy().into_owned(),
-                std::fs::read(&own).unwrap(),
+                path.file_name().unwrap().to_string_lossy().into_owned(),
+                std::fs::read(&path).unwrap(),
             )
         })
         .collect();
@@ -45,10 +45,10 @@ fn bytes_of(folder: &Path) -> Vec<(String, Vec<u8>)> {
 fn a_run_is_the_same_for_any_threads_and_shards_and_goes_on_where_it_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let text = "[run]\ndraws = 8\nsample = 0\n[gap]\nmedian = \"12 mm\"\n";
-    let own = city(folder.path(), 150, text).in_parts_of(50);
+    let parts = city(folder.path(), 150, text).in_parts_of(50);
     let of = |name: &str| folder.path().join(name);
-    let done = run(&own, &of("whole"), None).unwrap();
-    assert_eq!((done.cases, done.missing), (own.cases(), 0));
+    let done = run(&parts, &of("whole"), None).unwrap();
+    assert_eq!((done.cases, done.missing), (parts.cases(), 0));
     let whole = bytes_of(&of("whole"));
     assert!(whole.len() > 1, "{} parts", whole.len());
     let one = rayon::ThreadPoolBuilder::new()
@@ -56,24 +56,24 @@ fn a_run_is_the_same_for_any_threads_and_shards_and_goes_on_where_it_stopped() {
         .build()
         .unwrap();
     let first = one
-        .install(|| run(&own, &of("shards"), Some((1, 2))))
+        .install(|| run(&parts, &of("shards"), Some((1, 2))))
         .unwrap();
     assert!(first.missing > 0);
-    assert!(own.answers(&of("shards")).is_err());
-    run(&own, &of("shards"), Some((2, 2))).unwrap();
+    assert!(parts.answers(&of("shards")).is_err());
+    run(&parts, &of("shards"), Some((2, 2))).unwrap();
     assert!(bytes_of(&of("shards")) == whole);
     // Stopped after the first part; the next run makes the others only.
     let seen = std::cell::Cell::new(0);
-    let stopped = own.run(
+    let stopped = parts.run(
         &of("stopped"),
         RunOptions::default(),
-        &|| seen.get() > own.cases() / 2,
+        &|| seen.get() > parts.cases() / 2,
         &mut |done| seen.set(done.cases),
     );
     assert!(matches!(stopped, Err(CityError::Stopped)));
     let kept = bytes_of(&of("stopped"));
     assert!(!kept.is_empty() && kept.len() < whole.len());
-    run(&own, &of("stopped"), None).unwrap();
+    run(&parts, &of("stopped"), None).unwrap();
     assert!(bytes_of(&of("stopped")) == whole);
     // Another city does not go into the same folder.
     let other = city(folder.path(), 150, "[run]\ndraws = 3\n");
@@ -86,14 +86,14 @@ fn a_run_is_the_same_for_any_threads_and_shards_and_goes_on_where_it_stopped() {
 #[test]
 fn neighbours_hit_exactly_where_the_free_ones_come_nearer_than_the_gap() {
     let folder = tempfile::tempdir().unwrap();
-    let own = city(
+    let city = city(
         folder.path(),
         200,
         "[run]\ndraws = 20\nsample = 12\ntolerance = 0.001\n[gap]\nmedian = \"8 mm\"\n",
     );
     let out = folder.path().join("out");
-    run(&own, &out, None).unwrap();
-    let cases = own.cases_for_tests(&out).unwrap();
+    run(&city, &out, None).unwrap();
+    let cases = city.cases_for_tests(&out).unwrap();
     let (mut struck, mut expected, mut alone) = (0, 0.0, 0);
     let gaps = jostle_city::GapWidths {
         median: 0.008,
@@ -105,7 +105,7 @@ fn neighbours_hit_exactly_where_the_free_ones_come_nearer_than_the_gap() {
         if row == 2.0 {
             assert_eq!(closing > gap, impacts > 0.0, "closing {closing}, gap {gap}");
             struck += usize::from(impacts > 0.0);
-            let distance = own.neighbours.pairs[case[4] as usize].distance;
+            let distance = city.neighbours.pairs[case[4] as usize].distance;
             expected += gaps.probability_below(closing, distance);
             alone += 1;
         }
@@ -120,17 +120,20 @@ fn neighbours_hit_exactly_where_the_free_ones_come_nearer_than_the_gap() {
         (struck as f64 - expected).abs() < 3.0 * deviation,
         "{struck} {expected}"
     );
-    let answers = own.answers(&out).unwrap();
+    let answers = city.answers(&out).unwrap();
     assert!(answers.sampled.rows >= 12);
     let (within, worst) = answers.sampled.within(1e-3).unwrap();
     assert!(within >= 0.99 && worst < 5e-3, "{within} {worst}");
-    for own in answers.buildings.iter().flatten() {
+    for building in answers.buildings.iter().flatten() {
         assert!(
-            own.struck.windows(2).all(|own| own[0] >= own[1]),
+            building
+                .struck
+                .windows(2)
+                .all(|building| building[0] >= building[1]),
             "{:?}",
-            own.struck
+            building.struck
         );
-        for states in own.states {
+        for states in building.states {
             assert!((states.iter().sum::<f64>() - 1.0).abs() < 1e-12);
         }
     }
@@ -140,17 +143,17 @@ fn neighbours_hit_exactly_where_the_free_ones_come_nearer_than_the_gap() {
 fn motions_with_directions_act_along_the_rows() {
     let folder = tempfile::tempdir().unwrap();
     // Rows run east: a motion to the north does not move them.
-    let own = city(
+    let city = city(
         folder.path(),
         30,
         "angle = \"90 deg\"\n[run]\ndraws = 2\nsample = 0\n[gap]\nmedian = \"2 mm\"\n",
     );
     let out = folder.path().join("out");
-    run(&own, &out, None).unwrap();
-    let cases = own.cases_for_tests(&out).unwrap();
+    run(&city, &out, None).unwrap();
+    let cases = city.cases_for_tests(&out).unwrap();
     assert!(!cases.is_empty());
     assert!(
-        cases.iter().all(|own| own[3] == 0.0 && own[0] < 1e-6),
+        cases.iter().all(|city| city[3] == 0.0 && city[0] < 1e-6),
         "{:?}",
         cases[0]
     );
@@ -177,15 +180,15 @@ fn the_sides_of_a_pair_are_those_of_the_inventory_whatever_the_order_of_its_row(
     let text = "[inventory]\nfile = \"a.csv\"\nmetres = true\n[motion]\nrecord = \"el-centro-1940-ns\"\nduration = \"4 s\"\n\
                 [run]\ndraws = 3\nsample = 0\n";
     let file = CityFile::parse("city.toml", text, Format::Toml, folder.path()).unwrap();
-    let own = City::new(file).unwrap();
+    let city = City::new(file).unwrap();
     let out = folder.path().join("out");
-    run(&own, &out, None).unwrap();
-    let cases = own.cases_for_tests(&out).unwrap();
+    run(&city, &out, None).unwrap();
+    let cases = city.cases_for_tests(&out).unwrap();
     let alone = |pair: f64| {
         cases
             .iter()
-            .filter(move |own| own[4] == pair)
-            .map(|own| own[5])
+            .filter(move |case| case[4] == pair)
+            .map(|case| case[5])
     };
     assert_eq!(cases.len(), 6);
     assert!(alone(0.0).eq(alone(1.0)), "{cases:?}");
@@ -197,18 +200,18 @@ fn types_damage_and_levels_may_be_a_user_s_own() {
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     let run_of = |name: &str, extra: &str| {
         let text = format!("[run]\ndraws = 3\nsample = 0\n[gap]\nmedian = \"12 mm\"\n{extra}");
-        let own = city(folder.path(), 60, &text);
+        let city = city(folder.path(), 60, &text);
         let out = folder.path().join(name);
-        run(&own, &out, None).unwrap();
-        let damaged: f64 = own
+        run(&city, &out, None).unwrap();
+        let damaged: f64 = city
             .answers(&out)
             .unwrap()
             .buildings
             .iter()
             .flatten()
-            .map(|own| own.states[0][1..].iter().sum::<f64>())
+            .map(|building| building.states[0][1..].iter().sum::<f64>())
             .sum();
-        (own.cases_for_tests(&out).unwrap(), damaged)
+        (city.cases_for_tests(&out).unwrap(), damaged)
     };
     let usual = run_of("usual", "");
     assert!(usual.1 > 0.0);
@@ -244,10 +247,10 @@ fn damage_of_all([slight, moderate, extensive, complete]: [f64; 4]) -> String {
     let mut text = String::from("type,slight,moderate,extensive,complete\n");
     let names: std::collections::BTreeSet<String> = jostle_classes::Types::hazus()
         .classes()
-        .map(|own| own.name.to_string())
+        .map(|class| class.name.to_string())
         .collect();
-    for own in names {
-        text += &format!("{own},{slight},{moderate},{extensive},{complete}\n");
+    for name in names {
+        text += &format!("{name},{slight},{moderate},{extensive},{complete}\n");
     }
     text
 }

@@ -9,12 +9,12 @@ use jostle_testkit::scan::{Dice, scanned};
 #[test]
 fn damaged_footprints_are_refused_or_read() {
     let folder = tempfile::tempdir().unwrap();
-    let own = folder.path();
-    let map = own.join("city.geojson");
+    let directory = folder.path();
+    let map = directory.join("city.geojson");
     std::fs::write(&map, example_city(12, 3)).unwrap();
     let inventory = Inventory::read(&map, &ReadOptions::default()).unwrap();
     let found = Neighbours::within(&inventory.buildings, 0.5);
-    write_tables(own, &inventory, &found, &blocks(&found.pairs, 12)).unwrap();
+    write_tables(directory, &inventory, &found, &blocks(&found.pairs, 12)).unwrap();
     let mut csv = String::from("id,storeys,height,year,type,wkt\n");
     for building in &inventory.buildings {
         let ring = building
@@ -35,7 +35,7 @@ fn damaged_footprints_are_refused_or_read() {
         ("geojson", std::fs::read(&map).unwrap()),
         (
             "parquet",
-            std::fs::read(own.join("buildings.parquet")).unwrap(),
+            std::fs::read(directory.join("buildings.parquet")).unwrap(),
         ),
         ("csv", csv.into_bytes()),
     ];
@@ -43,7 +43,7 @@ fn damaged_footprints_are_refused_or_read() {
     let (mut read, mut refused) = (0, 0);
     for at in 0..scanned(300) {
         let (extension, bytes) = &originals[at % 3];
-        let path = own.join(format!("damaged.{extension}"));
+        let path = directory.join(format!("damaged.{extension}"));
         let damaged = dice.damage(bytes);
         std::fs::write(&path, &damaged).unwrap();
         let options = ReadOptions {
@@ -51,23 +51,24 @@ fn damaged_footprints_are_refused_or_read() {
             ..ReadOptions::default()
         };
         let done = catch_unwind(AssertUnwindSafe(|| {
-            Inventory::read(&path, &options).map(|own| {
-                let found = Neighbours::within(&own.buildings, 0.5);
-                (own, found)
+            Inventory::read(&path, &options).map(|inventory| {
+                let found = Neighbours::within(&inventory.buildings, 0.5);
+                (inventory, found)
             })
         }));
         match done {
-            Ok(Ok((own, found))) => {
+            Ok(Ok((inventory, found))) => {
                 assert!(
-                    own.buildings
+                    inventory
+                        .buildings
                         .iter()
-                        .all(|own| own.area.is_finite() && own.area >= 20.0)
+                        .all(|building| building.area.is_finite() && building.area >= 20.0)
                 );
                 assert!(
                     found
                         .pairs
                         .iter()
-                        .all(|own| own.distance.is_finite() && own.normal.is_finite())
+                        .all(|pair| pair.distance.is_finite() && pair.normal.is_finite())
                 );
                 read += 1;
             }

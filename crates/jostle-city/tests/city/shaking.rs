@@ -21,18 +21,18 @@ fn city(folder: &Path, motion: &str) -> Result<City, CityError> {
 
 /// Closing, gap, buildings of the row, impacts, pair, drift alone and in the row of every case.
 fn cases(folder: &Path, motion: &str) -> (City, Vec<[f64; 7]>) {
-    let own = city(folder, motion).unwrap_or_else(|error| panic!("{motion}: {error}"));
+    let city = city(folder, motion).unwrap_or_else(|error| panic!("{motion}: {error}"));
     let out = tempfile::tempdir().unwrap();
-    own.run(out.path(), RunOptions::default(), &|| false, &mut |_| {})
+    city.run(out.path(), RunOptions::default(), &|| false, &mut |_| {})
         .unwrap();
-    let cases = own.cases_for_tests(out.path()).unwrap();
+    let cases = city.cases_for_tests(out.path()).unwrap();
     assert!(cases.len() > 20, "{} cases", cases.len());
-    (own, cases)
+    (city, cases)
 }
 
-fn near(own: &[[f64; 7]], other: &[[f64; 7]]) {
-    assert_eq!(own.len(), other.len());
-    for (a, b) in own.iter().zip(other) {
+fn near(one: &[[f64; 7]], other: &[[f64; 7]]) {
+    assert_eq!(one.len(), other.len());
+    for (a, b) in one.iter().zip(other) {
         for at in [0, 5, 6] {
             assert!((a[at] - b[at]).abs() <= 2e-4 * b[at].abs(), "{a:?} {b:?}");
         }
@@ -48,7 +48,7 @@ fn record(components: &[(&str, f64)]) -> String {
     let lists = components.iter().map(|(name, factor)| {
         let values: Vec<String> = acceleration[..=400]
             .iter()
-            .map(|own| format!("{:e}", factor * own))
+            .map(|acceleration| format!("{:e}", factor * acceleration))
             .collect();
         format!("\"data_{name}\": [{}]", values.join(","))
     });
@@ -71,31 +71,35 @@ fn every_row_takes_the_motions_of_the_nearest_point_with_their_factors() {
     write("west.csv", "TH_file,factor\nRSN1,1\n");
     write("east.csv", "TH_file, factor\nRSN1.json, 0.5\n");
     write("RSN1.json", &record(&[("x", 1.0)]));
-    let (own, found) = cases(folder.path(), "grid = \"EventGrid.csv\"\nunit = \"m/s2\"");
-    assert!(own.told()[0].contains("2 of 2 points"), "{:?}", own.told());
+    let (city, found) = cases(folder.path(), "grid = \"EventGrid.csv\"\nunit = \"m/s2\"");
+    assert!(
+        city.told()[0].contains("2 of 2 points"),
+        "{:?}",
+        city.told()
+    );
     let common = |scale: &str| {
         let text = format!("record = \"el-centro-1940-ns\"\nduration = \"8 s\"\nscale = {scale}");
         cases(folder.path(), &text).1
     };
     let both = [common("1"), common("0.5")];
-    let points = ends.map(|x| own.inventory.plane.metres(geo::Coord { x, y: MIDDLE[1] }));
+    let points = ends.map(|x| city.inventory.plane.metres(geo::Coord { x, y: MIDDLE[1] }));
     let mut seen = [0, 0];
-    for block in &own.blocks {
+    for block in &city.blocks {
         let centres: Vec<_> = block
             .buildings
             .iter()
-            .map(|at| own.inventory.buildings[*at].outline.centroid().unwrap().0)
+            .map(|at| city.inventory.buildings[*at].outline.centroid().unwrap().0)
             .collect();
         let mean = |of: &dyn Fn(&geo::Coord) -> f64| {
             centres.iter().map(of).sum::<f64>() / centres.len() as f64
         };
-        let [x, y] = [mean(&|own| own.x), mean(&|own| own.y)];
-        let distance = points.map(|own| (own.x - x).hypot(own.y - y));
+        let [x, y] = [mean(&|point| point.x), mean(&|point| point.y)];
+        let distance = points.map(|point| (point.x - x).hypot(point.y - y));
         let nearest = usize::from(distance[1] < distance[0]);
         for pair in &block.pairs {
             let of = |all: &[[f64; 7]]| -> Vec<[f64; 7]> {
-                let own = all.iter().filter(|own| own[4] == *pair as f64);
-                own.copied().collect()
+                let rows = all.iter().filter(|candidate| candidate[4] == *pair as f64);
+                rows.copied().collect()
             };
             assert_eq!(of(&found), of(&both[nearest]), "pair {pair}");
             seen[nearest] += 1;
@@ -103,7 +107,7 @@ fn every_row_takes_the_motions_of_the_nearest_point_with_their_factors() {
     }
     assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
     // The model of a pair has the record and the factor of its place.
-    let text = own.model(0, 0, 0).unwrap();
+    let text = city.model(0, 0, 0).unwrap();
     let wanted = ["RSN1.json", "component = \"x\"", "unit = \"m/s2\""];
     for wanted in wanted {
         assert!(text.contains(wanted), "{wanted}: {text}");
@@ -111,7 +115,7 @@ fn every_row_takes_the_motions_of_the_nearest_point_with_their_factors() {
     // Rows run east: a motion to the north does not move them.
     write("RSN1.json", &record(&[("x", 0.0), ("y", 1.0)]));
     let (_, north) = cases(folder.path(), "grid = \"EventGrid.csv\"\nunit = \"m/s2\"");
-    assert!(north.iter().all(|own| own[3] == 0.0 && own[0] < 1e-6));
+    assert!(north.iter().all(|row| row[3] == 0.0 && row[0] < 1e-6));
 }
 
 #[test]
@@ -122,7 +126,7 @@ fn records_are_scaled_to_a_map_and_to_the_events_of_fields() {
         let text = format!("record = \"el-centro-1940-ns\"\nduration = \"8 s\"\npga = \"{pga}\"");
         cases(folder.path(), &text).1
     };
-    let [west, south] = MIDDLE.map(|own| own - 0.1);
+    let [west, south] = MIDDLE.map(|coordinate| coordinate - 0.1);
     let mut data = String::new();
     for y in [south + 0.2, south] {
         for x in [west, west + 0.2] {
@@ -158,19 +162,19 @@ fn records_are_scaled_to_a_map_and_to_the_events_of_fields() {
         "gmf.csv",
         "#,,\"written by a calculation\"\nevent_id,gmv_PGV,gmv_PGA,site_id\n10,1,0.9,8\n3,20,0.2,7\n",
     );
-    let (own, found) = cases(
+    let (city, found) = cases(
         folder.path(),
         &format!("{records}gmf = \"gmf.csv\"\nsites = \"sites.csv\""),
     );
-    assert_eq!(own.motions(), ["event 3", "event 10"]);
+    assert_eq!(city.motions(), ["event 3", "event 10"]);
     let by_event = |event: usize| -> Vec<[f64; 7]> {
         // Cases of a draw follow each other by motions.
-        let own = found.iter().enumerate();
-        let own = own.filter(|(at, _)| at % 2 == event);
-        own.map(|(_, own)| *own).collect()
+        let rows = found.iter().enumerate();
+        let rows = rows.filter(|(at, _)| at % 2 == event);
+        rows.map(|(_, row)| *row).collect()
     };
     near(&by_event(0), &common("0.2 g"));
-    assert!(by_event(1).iter().all(|own| own[0] == 0.0 && own[5] == 0.0));
+    assert!(by_event(1).iter().all(|row| row[0] == 0.0 && row[5] == 0.0));
 }
 
 #[test]

@@ -46,8 +46,9 @@ pub(super) fn schema(more: &Value) -> Value {
             },
         },
     });
-    if let (Some(own), Some(more)) = (schema["properties"].as_object_mut(), more.as_object()) {
-        own.extend(more.clone());
+    if let (Some(properties), Some(more)) = (schema["properties"].as_object_mut(), more.as_object())
+    {
+        properties.extend(more.clone());
     }
     schema
 }

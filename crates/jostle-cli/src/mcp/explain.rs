@@ -74,8 +74,8 @@ pub(super) fn explain(given: Value) -> Result<String, Failure> {
     ];
     for (what, page) in &pages {
         for row in rows(page) {
-            let own = row.cells.iter().take(2).map(|cell| cell.trim_matches('`'));
-            if own.clone().any(|cell| cell == name) {
+            let trim_matches = row.cells.iter().take(2).map(|cell| cell.trim_matches('`'));
+            if trim_matches.clone().any(|cell| cell == name) {
                 text += &format!("{what}, {}\n", row.heading);
                 for (column, cell) in row.columns.iter().zip(&row.cells) {
                     if !cell.is_empty() {
@@ -150,7 +150,7 @@ pub(super) fn schema(given: Value) -> Result<String, Failure> {
         return Ok(format!("{head}\nSections:\n{}\n", headings.join("\n")));
     };
     let wanted = wanted.replace('`', "");
-    let chosen: Vec<usize> = match headings.iter().position(|own| *own == wanted) {
+    let chosen: Vec<usize> = match headings.iter().position(|heading| *heading == wanted) {
         Some(exact) => vec![exact],
         None => (0..headings.len())
             .filter(|&at| headings[at].contains(&wanted))

@@ -140,7 +140,7 @@ fn table(
     let text = String::from_utf8_lossy(&bytes);
     let names = split(text.lines().next().unwrap_or_default());
     let inputs = &study.layout.inputs;
-    let input = |name: &str| name == "case" || inputs.iter().any(|own| own.name == name);
+    let input = |name: &str| name == "case" || inputs.iter().any(|input| input.name == name);
     let keep: Vec<usize> = (0..names.len())
         .filter(|&index| match wanted.is_empty() {
             true => input(names[index]) || USUAL.contains(&names[index]),

@@ -67,9 +67,10 @@ fn strength(before: Option<&Measures>, after: &Measures) -> String {
         )],
     };
     for (what, unit, decimals, value) in MEASURES {
-        let own = Shown::named(unit);
-        let unit = own.map_or(unit, Shown::name);
-        let shown = |m: &Measures| own.map_or(value(m), |own| own.of(value(m)));
+        let conversion = Shown::named(unit);
+        let unit = conversion.map_or(unit, Shown::name);
+        let shown =
+            |m: &Measures| conversion.map_or(value(m), |conversion| conversion.of(value(m)));
         let after = shown(after);
         let row = match before.map(shown) {
             None => format!("  {what:<26}{after:>12.decimals$} {unit}"),

@@ -28,9 +28,9 @@ pub(super) fn by_owner(names: &[&str]) -> String {
         }
         is_alike
     });
-    let lines = all.iter().map(|own| {
-        let quantities = own.quantities.join(", ");
-        match own.owners[..] {
+    let lines = all.iter().map(|group| {
+        let quantities = group.quantities.join(", ");
+        match group.owners[..] {
             [""] => format!("  {quantities}"),
             [owner] => format!("  {owner}: {quantities}"),
             [first, .., last] => format!("  {first} … {last}: {quantities}"),

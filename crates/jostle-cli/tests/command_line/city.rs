@@ -17,20 +17,20 @@ fn done(folder: &Path, arguments: &[&str]) -> String {
 #[test]
 fn a_city_goes_from_footprints_to_a_map_and_a_pair_to_a_model() {
     let folder = folder();
-    let own = folder.path();
-    done(own, &["city", "example", "demo", "--buildings", "120"]);
+    let path = folder.path();
+    done(path, &["city", "example", "demo", "--buildings", "120"]);
     let text = done(
-        own,
+        path,
         &["city", "check", "demo/city.geojson", "--reach", "0.3 m"],
     );
     assert!(text.contains("120 buildings of 120 rows"), "{text}");
     assert!(text.contains("within 0.3 m"), "{text}");
     done(
-        own,
+        path,
         &["city", "pairs", "demo/city.geojson", "--out", "tables"],
     );
     let text = done(
-        own,
+        path,
         &[
             "city",
             "run",
@@ -50,35 +50,38 @@ fn a_city_goes_from_footprints_to_a_map_and_a_pair_to_a_model() {
         "pairs.parquet",
         "mended.csv",
     ] {
-        assert!(own.join("out").join(name).exists(), "{name}");
+        assert!(path.join("out").join(name).exists(), "{name}");
     }
     // The map's own table of buildings is an inventory again.
-    let text = done(own, &["city", "check", "out/buildings.parquet"]);
+    let text = done(path, &["city", "check", "out/buildings.parquet"]);
     assert!(text.contains("120 buildings of 120 rows"), "{text}");
-    let first = std::fs::read(own.join("out/index.html")).expect("a page");
-    done(own, &["city", "report", "out"]);
-    assert!(std::fs::read(own.join("out/index.html")).expect("a page") == first);
+    let first = std::fs::read(path.join("out/index.html")).expect("a page");
+    done(path, &["city", "report", "out"]);
+    assert!(std::fs::read(path.join("out/index.html")).expect("a page") == first);
     // A folder moved with its city file elsewhere is the same city.
-    let model = done(own, &["city", "model", "out", "--pair", "0", "--draw", "1"]);
-    std::fs::write(own.join("pair.toml"), model).expect("a model");
-    done(own, &["check", "pair.toml"]);
+    let model = done(
+        path,
+        &["city", "model", "out", "--pair", "0", "--draw", "1"],
+    );
+    std::fs::write(path.join("pair.toml"), model).expect("a model");
+    done(path, &["check", "pair.toml"]);
 }
 
 #[test]
 fn what_a_city_lacks_is_told_with_a_remedy() {
     let folder = folder();
-    let own = folder.path();
-    done(own, &["city", "example", "demo", "--buildings", "60"]);
-    let file = std::fs::read_to_string(own.join("demo/city.toml")).expect("a city file");
+    let path = folder.path();
+    done(path, &["city", "example", "demo", "--buildings", "60"]);
+    let file = std::fs::read_to_string(path.join("demo/city.toml")).expect("a city file");
     let changed = |name: &str, from: &str, to: &str| {
         assert!(file.contains(from), "{from}");
-        std::fs::write(own.join("demo").join(name), file.replace(from, to)).expect("a city file");
+        std::fs::write(path.join("demo").join(name), file.replace(from, to)).expect("a city file");
     };
     changed("gap.toml", "median = \"25 mm\"", "median = \"25 kg\"");
     changed("key.toml", "draws = 5", "draw = 5");
     changed("type.toml", "type = \"C1\"", "type = \"C9\"");
     changed("none.toml", "city.geojson", "none.geojson");
-    std::fs::write(own.join("points.csv"), "id,lat,lon,storeys\n1,2,3,4\n").expect("points");
+    std::fs::write(path.join("points.csv"), "id,lat,lon,storeys\n1,2,3,4\n").expect("points");
     for (arguments, wanted) in [
         (&["city", "run", "demo/gap.toml"][..], "gap.toml:"),
         (&["city", "run", "demo/key.toml"], "draws"),
@@ -100,7 +103,7 @@ fn what_a_city_lacks_is_told_with_a_remedy() {
         ),
         (&["city", "example", "demo"], "--force"),
     ] {
-        let output = jostle(own, arguments);
+        let output = jostle(path, arguments);
         assert_eq!(
             output.status.code(),
             Some(2),

@@ -76,8 +76,8 @@ fn the_report_shows_the_spread() {
 #[test]
 fn every_variant_is_the_run_with_that_contact() {
     let (k, e) = (2e8, 0.6);
-    let own = run(&model("kelvin", k, e), &["--sensitivity", "--no-report"]);
-    let spread = &own["contact_sensitivity"];
+    let summary = run(&model("kelvin", k, e), &["--sensitivity", "--no-report"]);
+    let spread = &summary["contact_sensitivity"];
     // Hertz's F = k^0.4 (5 m v²/4)^0.6 at 0.4 m/s with 40 t against 60 t, and the spring with that force; a slab of 150 mm.
     let (mass, speed) = (24e3_f64, 0.4_f64);
     let energy = mass * speed * speed;
@@ -93,7 +93,7 @@ fn every_variant_is_the_run_with_that_contact() {
     let by_hand = [(low, e), (high, e), (k, e - 0.15), (k, e + 0.15)];
     let others = by_hand.map(|(k, e)| run(&model("kelvin", k, e), &["--no-report"]));
     let force = |run: &Value| number(&run["gaps"][0]["peak_force_n"]);
-    let mut forces = vec![force(&own)];
+    let mut forces = vec![force(&summary)];
     for (variant, other) in spread["variants"]
         .as_array()
         .expect("a list")
@@ -120,7 +120,7 @@ fn every_variant_is_the_run_with_that_contact() {
             .map(|floor| number(&floor["storey_drift_peak"]))
             .collect()
     };
-    let own_drifts = drifts(&own);
+    let own_drifts = drifts(&summary);
     let scale = own_drifts.iter().copied().fold(0.0, f64::max);
     let changes = others.iter().flat_map(|other| {
         let pairs = drifts(other).into_iter().zip(own_drifts.clone());
@@ -138,11 +138,11 @@ fn every_variant_is_the_run_with_that_contact() {
 
 #[test]
 fn elastic_laws_vary_in_stiffness_only_and_the_text_says_the_spread() {
-    let own = run(
+    let summary = run(
         &model("linear", 2e8, 1.0),
         &["--sensitivity", "--no-report"],
     );
-    let variants = own["contact_sensitivity"]["variants"]
+    let variants = summary["contact_sensitivity"]["variants"]
         .as_array()
         .expect("a list");
     assert_eq!(variants.len(), 2);
@@ -172,11 +172,11 @@ fn without_a_gap_the_run_says_that_there_is_nothing_to_vary() {
     let text = model("kelvin", 2e8, 0.6);
     let (before, rest) = text.split_once("[[building]]").expect("buildings");
     let (first, _) = rest.split_once("[[building]]").expect("two");
-    let own = run(
+    let summary = run(
         &format!("{before}[[building]]{first}"),
         &["--sensitivity", "--no-report"],
     );
-    let warnings = own["warnings"].to_string();
+    let warnings = summary["warnings"].to_string();
     assert!(warnings.contains("the model has no gap"), "{warnings}");
-    assert!(own.get("contact_sensitivity").is_none());
+    assert!(summary.get("contact_sensitivity").is_none());
 }

@@ -76,10 +76,10 @@ fn spectra_are_in_every_file_when_asked_for_and_nowhere_else() {
             .contains("id=\"floor-spectra\"")
     );
     // The file asks for less.
-    let own = format!(
+    let model_text = format!(
         "{TOWERS}[output]\nfloor_spectra = {{ floors = [\"A.floor.2\", \"B\"], damping = [0.02, 0.05], periods = [\"0.1 s\", 0.5], low_pass = \"33 Hz\", order = 2 }}\n"
     );
-    fs::write(place.path().join("own.toml"), own).expect("written");
+    fs::write(place.path().join("own.toml"), model_text).expect("written");
     let text = run(&["run", "own.toml", "--json"]);
     let spectra = &serde_json::from_str::<Value>(&text).expect("JSON")["floor_spectra"];
     assert_eq!(spectra["floors"].as_array().map(Vec::len), Some(2));

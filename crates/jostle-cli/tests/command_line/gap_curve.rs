@@ -77,13 +77,13 @@ fn a_point_of_the_curve_is_the_run_with_its_gap() {
     );
     assert!(run.status.success(), "{}", complained(&run));
     let summary: serde_json::Value = serde_json::from_str(&printed(&run)).expect("JSON");
-    let own = &summary["gaps"][0];
+    let summary = &summary["gaps"][0];
     assert_eq!(
-        own["impact_count"].as_f64(),
+        summary["impact_count"].as_f64(),
         Some(number(3, "impact_count"))
     );
     assert_eq!(
-        own["peak_force_n"].as_f64(),
+        summary["peak_force_n"].as_f64(),
         Some(number(3, "peak_force_n"))
     );
 }

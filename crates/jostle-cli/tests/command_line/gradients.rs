@@ -43,7 +43,9 @@ fn write(folder: &Path, name: &str, width: &str) {
 
 fn of<'s>(summary: &'s Value, of: &str, by: &str) -> &'s Value {
     let all = summary["gradients"].as_array().expect("gradients");
-    let found = all.iter().find(|own| own["of"] == of && own["by"] == by);
+    let found = all
+        .iter()
+        .find(|summary| summary["of"] == of && summary["by"] == by);
     found.unwrap_or_else(|| panic!("no gradient of {of} by {by}"))
 }
 
@@ -68,14 +70,14 @@ fn peaks_of_elastic_buildings_grow_with_the_motion_as_it_does() {
         "buildings[1].floors[1].total_acceleration_peak_m_s2",
         "buildings[0].floors[0].displacement_max_m",
     ] {
-        let own = of(&summary, path, "motion.pga");
-        let number = |key: &str| own[key].as_f64().expect("a number");
-        assert!((number("at") - 0.2 * 9.806_65).abs() < 1e-9, "{own}");
+        let gradient = of(&summary, path, "motion.pga");
+        let number = |key: &str| gradient[key].as_f64().expect("a number");
+        assert!((number("at") - 0.2 * 9.806_65).abs() < 1e-9, "{gradient}");
         let elasticity = number("value") * number("at") / number("peak");
         assert!((elasticity - 1.0).abs() < 1e-6, "{path}: {elasticity}");
         assert!(
             (number("valid_within") - 0.5 * number("at")).abs() < 1e-9,
-            "{own}"
+            "{gradient}"
         );
     }
     // No gap closes: its force is zero, and stays so.
@@ -123,18 +125,18 @@ fn the_derivative_of_a_force_is_that_of_runs_beside_it() {
         ("gap[0].width", 0.01, by_gap),
         ("building[0].stiffness", 20e6, by_stiffness),
     ] {
-        let own = of(&summary, "gaps[0].peak_force_n", path);
-        let value = own["value"].as_f64().expect("a number") * at;
+        let gradient = of(&summary, "gaps[0].peak_force_n", path);
+        let value = gradient["value"].as_f64().expect("a number") * at;
         assert!(
             (value - wanted).abs() <= 2e-3 * wanted.abs(),
             "{path}: {value} {wanted}"
         );
         // The line holds where it is said to hold.
-        let reach = own["valid_within"].as_f64().expect("a number") / at;
-        assert!(reach > 0.0, "{own}");
+        let reach = gradient["valid_within"].as_f64().expect("a number") / at;
+        assert!(reach > 0.0, "{gradient}");
     }
-    let own = of(&summary, "gaps[0].peak_force_n", "gap[0].width");
-    let number = |key: &str| own[key].as_f64().expect("a number");
+    let gradient = of(&summary, "gaps[0].peak_force_n", "gap[0].width");
+    let number = |key: &str| gradient[key].as_f64().expect("a number");
     let change = number("valid_within");
     let there = peak(text.replace("10 mm", &format!("{} mm", 1e3 * (0.01 + change))));
     let straight = number("peak") + number("value") * change;

@@ -204,11 +204,11 @@ fn processes_share_a_folder() {
     write(folder, "h.toml", &kept);
     let run = || jostle(folder, &["study", "h.toml", "--out", "kept", "--no-report"]);
     assert!(run().status.success());
-    let own = folder.join("kept/runs/case-0000000003/summary.json");
-    let before = std::fs::read(&own).expect("a run");
+    let kept = folder.join("kept/runs/case-0000000003/summary.json");
+    let before = std::fs::read(&kept).expect("a run");
     std::fs::remove_dir_all(folder.join("kept/runs")).expect("gone");
     assert!(run().status.success());
-    assert_eq!(std::fs::read(&own).expect("a run"), before);
+    assert_eq!(std::fs::read(&kept).expect("a run"), before);
 }
 
 /// A process that hangs is named, and its part is computed by one that has nothing else to do.
@@ -466,12 +466,12 @@ fn runs_at_once_do_not_mix_their_files() {
         }
         assert!(finished > 0);
         let found = summary(&folder.join("both"));
-        let own =
+        let position =
             (0..gaps.len()).find(|index| summary(&folder.join(format!("alone{index}"))) == found);
-        let own = folder.join(format!("alone{}", own.expect("one of the runs")));
+        let alone = folder.join(format!("alone{}", position.expect("one of the runs")));
         for name in ["history.parquet", "impacts.parquet", "floors.parquet"] {
-            let [one, other] =
-                [&own, &folder.join("both")].map(|f| std::fs::read(f.join(name)).expect("a table"));
+            let [one, other] = [&alone, &folder.join("both")]
+                .map(|f| std::fs::read(f.join(name)).expect("a table"));
             assert!(one == other, "{name}");
         }
         assert_eq!(hidden(&folder.join("both")), Vec::<String>::new());

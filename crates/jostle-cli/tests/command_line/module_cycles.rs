@@ -33,9 +33,9 @@ fn no_crate_has_a_ring_of_modules() {
 #[test]
 fn a_ring_is_found_and_named() {
     let imports = |list: &[(&str, &[&str])]| -> Imports {
-        let own = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        let names_of = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
         list.iter()
-            .map(|(name, names)| ((*name).to_owned(), own(names)))
+            .map(|(name, names)| ((*name).to_owned(), names_of(names)))
             .collect()
     };
     let chain = imports(&[("a", &["b", "c"]), ("b", &["c"]), ("c", &[])]);
@@ -57,8 +57,8 @@ fn modules(root: &Path) -> Imports {
             continue;
         }
         let text = std::fs::read_to_string(file).expect("a source file can be read");
-        let own = found.entry(module.clone()).or_default();
-        own.extend(imports(&text).filter(|name| *name != module));
+        let names = found.entry(module.clone()).or_default();
+        names.extend(imports(&text).filter(|name| *name != module));
     }
     found
 }

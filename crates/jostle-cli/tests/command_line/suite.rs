@@ -72,20 +72,20 @@ fn every_record_is_as_on_its_own() {
     for part in ["3 motions", "el-centro-1940-ns", "governing", "suite.html"] {
         assert!(said.contains(part), "{part} is missing:\n{said}");
     }
-    for (record, own) in ["el-centro-1940-ns", "nanjing-artificial", "noise.csv"]
+    for (record, record_folder) in ["el-centro-1940-ns", "nanjing-artificial", "noise.csv"]
         .into_iter()
         .zip(FOLDERS)
     {
         let arguments = ["run", "towers.toml", "--record", record, "--out", "one"];
         good(place.path(), &arguments);
-        let suite = place.path().join("suite").join(own);
+        let suite = place.path().join("suite").join(record_folder);
         let [mut a, mut b] = [suite.clone(), place.path().join("one")]
             .map(|folder| json_at(&folder.join("summary.json")));
         for summary in [&mut a, &mut b] {
             summary["work"]["wall_s"] = Value::Null;
             // Alone it is one record, in the suite one of three.
             let checks = summary["checks"].as_array_mut().expect("a list");
-            checks.retain(|own| own["id"] != "A12");
+            checks.retain(|check| check["id"] != "A12");
         }
         assert!(a == b, "{record}: another summary");
         for table in ["history.parquet", "impacts.parquet"] {
@@ -96,10 +96,10 @@ fn every_record_is_as_on_its_own() {
         assert!(suite.join("report.html").exists());
     }
     let page = fs::read_to_string(place.path().join("suite/suite.html")).expect("written");
-    for own in FOLDERS {
+    for folder in FOLDERS {
         assert!(
-            page.contains(&format!("href=\"{own}/report.html\"")),
-            "{own}"
+            page.contains(&format!("href=\"{folder}/report.html\"")),
+            "{folder}"
         );
     }
 }
@@ -121,8 +121,8 @@ fn statistics_are_those_of_the_summaries() {
     assert_eq!(suite["governing"]["rule"], "en1998");
     assert_eq!(suite["governing"]["statistic"], "maximum");
     assert_eq!(suite["governing"]["met"], true);
-    let summaries =
-        FOLDERS.map(|own| json_at(&place.path().join("suite").join(own).join("summary.json")));
+    let summaries = FOLDERS
+        .map(|folder| json_at(&place.path().join("suite").join(folder).join("summary.json")));
     let known: [(&str, Vec<f64>); 3] = [
         (
             "A-B.peak_force_n",
@@ -257,7 +257,7 @@ fn threads_do_not_change_a_byte_and_finished_records_are_kept() {
     // One record is as if its run had been interrupted.
     fs::remove_file(many.join(FOLDERS[1]).join("finished.json")).expect("removed");
     let times = || -> Vec<SystemTime> {
-        let written = FOLDERS.map(|own| fs::metadata(many.join(own).join("summary.json")));
+        let written = FOLDERS.map(|folder| fs::metadata(many.join(folder).join("summary.json")));
         written
             .map(|file| file.and_then(|file| file.modified()).expect("a time"))
             .to_vec()

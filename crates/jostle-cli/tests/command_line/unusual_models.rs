@@ -184,7 +184,7 @@ fn an_indentation_that_concrete_does_not_allow_is_noted() {
     let told = std::fs::read_to_string(summary).expect("it is written");
     let found: Value = serde_json::from_str(&told).expect("JSON");
     let checks = found["checks"].as_array().expect("a list").iter();
-    let mut deep = checks.filter(|own| own["name"] == "indentation");
+    let mut deep = checks.filter(|check| check["name"] == "indentation");
     assert_eq!(
         deep.next().map(|own| &own["grade"]),
         Some(&Value::from("warning")),

@@ -226,11 +226,13 @@ impl Script<'_> {
         // On a foundation they are damping relative to it.
         let on_foundation = stick_model.foundation.is_some();
         let is_diagonal = |element: &&Element| match element {
-            Element::Spring { row, .. } => diagonals.iter().any(|own| own.elongation == *row),
+            Element::Spring { row, .. } => {
+                diagonals.iter().any(|diagonal| diagonal.elongation == *row)
+            }
             Element::Matrix { .. } => false,
         };
         let elements = stick_model.elements.iter();
-        let elements = elements.filter(|own| !on_foundation && !is_diagonal(own));
+        let elements = elements.filter(|element| !on_foundation && !is_diagonal(element));
         for element in elements {
             let between = match element {
                 Element::Spring {
@@ -270,9 +272,9 @@ impl Script<'_> {
         index: usize,
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
-        for own in &building.discretization.diagonals {
-            let ends = own.ends.map(|node| self.tag(index, node));
-            self.add_diagonal(ends, own.stiffness, own.spring.as_ref())?;
+        for diagonal in &building.discretization.diagonals {
+            let ends = diagonal.ends.map(|node| self.tag(index, node));
+            self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
         }
         Ok(())
     }

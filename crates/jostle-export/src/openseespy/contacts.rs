@@ -109,18 +109,19 @@ impl Script<'_> {
         for link in system.model_links() {
             let path = format!("link[{}]", link.link);
             let ports = &link.ports.0;
-            let own = ports.iter().flatten().map(|port| port.building).next();
-            let on_soil = match own.map(|own| (own, &system.buildings[own])) {
-                Some((own, building)) if link.inside => {
-                    self.ends_on_foundation(own, building, link)
-                }
-                _ => None,
-            };
+            let building_index = ports.iter().flatten().map(|port| port.building).next();
+            let on_soil =
+                match building_index.map(|building| (building, &system.buildings[building])) {
+                    Some((index, building)) if link.inside => {
+                        self.ends_on_foundation(index, building, link)
+                    }
+                    _ => None,
+                };
             // Both ends of a link inside a building stand on the same face.
             let end = |side: usize| match &ports[side] {
-                _ if on_soil.is_some() => on_soil.map(|own| own.ends[side]),
+                _ if on_soil.is_some() => on_soil.map(|soil| soil.ends[side]),
                 Some(port) => self.face(port, side == 0 || link.inside),
-                None => self.ground(own?),
+                None => self.ground(building_index?),
             };
             let (Some(a), Some(b)) = (end(0), end(1)) else {
                 faults.push(ModelFault {
@@ -129,7 +130,7 @@ impl Script<'_> {
                 });
                 continue;
             };
-            let turned = on_soil.is_some_and(|own| own.turned);
+            let turned = on_soil.is_some_and(|soil| soil.turned);
             if turned && matches!(link.law, LinkLaw::Stopper { .. }) && link.damping != 0.0 {
                 faults.push(ModelFault {
                     path: format!("{path}.damping"),

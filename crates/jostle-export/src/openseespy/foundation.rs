@@ -47,7 +47,10 @@ impl Script<'_> {
         spring: &Spring,
     ) -> Result<(), &'static str> {
         // Deformation of a lever counts the other way.
-        let hysteresis = spring.hysteresis.as_ref().map(|own| own.mirrored());
+        let hysteresis = spring
+            .hysteresis
+            .as_ref()
+            .map(|hysteresis| hysteresis.mirrored());
         for material in self.spring_materials(spring.stiffness, hysteresis.as_ref(), 0.0)? {
             let ends = [first, last];
             self.lever(ends, material, Turning::Both, spring.proportional_damping);
@@ -105,7 +108,7 @@ impl Script<'_> {
         if alpha == 0.0 {
             return;
         }
-        let own = |node: usize| stick_model.lever(node);
+        let lever = |node: usize| stick_model.lever(node);
         for (number, node) in nodes.iter().enumerate() {
             let of_mass = alpha * node.mass();
             if of_mass == 0.0 || number == foundation.node || node.support == Support::Fixed {
@@ -123,7 +126,7 @@ impl Script<'_> {
                 );
             }
             // Floors of a shear building do not rise, and columns that keep their length rise with the foundation.
-            if node.support == Support::Free && own(number).is_none() {
+            if node.support == Support::Free && lever(number).is_none() {
                 if (node.x - base.x).abs() <= SAME_LINE {
                     let ground = self.ground_point(index, [node.x, node.y]);
                     self.spring(ground, tag, &[(2, material)], ProportionalDamping::None);
@@ -147,7 +150,7 @@ impl Script<'_> {
             .buildings
             .iter()
             .enumerate()
-            .filter_map(|(index, own)| own.foundation.map(|_| index))
+            .filter_map(|(index, building)| building.foundation.map(|_| index))
             .collect();
         if founded.is_empty() {
             return;
@@ -159,8 +162,11 @@ impl Script<'_> {
             .iter()
             .filter_map(|index| {
                 let sticks = &system.buildings[*index].discretization.stick_model;
-                let own = sticks.foundation.as_ref()?;
-                Some((self.tag(*index, own.node), sticks.nodes[own.node]))
+                let foundation = sticks.foundation.as_ref()?;
+                Some((
+                    self.tag(*index, foundation.node),
+                    sticks.nodes[foundation.node],
+                ))
             })
             .collect();
         for (spring, [stiffness, dashpot]) in springs_of(stiffness, damping, LEVER) {

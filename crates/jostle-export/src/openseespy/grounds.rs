@@ -68,7 +68,10 @@ impl Script<'_> {
         };
         let mut known: Vec<&GroundMotion> = Vec::new();
         let all = grounds.own.iter();
-        for motion in all.flat_map(|own| [&own.motion, &own.vertical]).flatten() {
+        for motion in all
+            .flat_map(|ground| [&ground.motion, &ground.vertical])
+            .flatten()
+        {
             if !known.contains(&motion) {
                 known.push(motion);
             }
@@ -85,7 +88,7 @@ impl Script<'_> {
         let name = |motion: &Option<GroundMotion>| {
             let place = motion
                 .as_ref()
-                .and_then(|motion| known.iter().position(|own| *own == motion));
+                .and_then(|motion| known.iter().position(|candidate| *candidate == motion));
             place.map_or_else(
                 || "None".to_owned(),
                 |place| format!("GROUND_{}", place + 1),
@@ -102,8 +105,8 @@ impl Script<'_> {
             .clone()
             .filter(|_| self.grounds_part())
             .map(|index| {
-                let own = under(index);
-                format!("({}, {:?})", name(&own.motion), own.arrival)
+                let ground = under(index);
+                format!("({}, {:?})", name(&ground.motion), ground.arrival)
             });
         writeln!(out, "GROUNDS = [{}]", rows.collect::<Vec<_>>().join(", "))?;
         writeln!(
@@ -113,9 +116,9 @@ impl Script<'_> {
         let rows = buildings
             .filter(|_| self.export.motion.is_vertical())
             .map(|index| {
-                let own = under(index);
-                match own.vertical {
-                    Some(_) => format!("({}, {:?})", name(&own.vertical), own.arrival),
+                let ground = under(index);
+                match ground.vertical {
+                    Some(_) => format!("({}, {:?})", name(&ground.vertical), ground.arrival),
                     None => "None".to_owned(),
                 }
             });

@@ -101,10 +101,10 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
             );
         }
-        let several = building.base.isolation.map(|own| own.isolator);
-        let several = several.filter(|own| {
+        let several = building.base.isolation.map(|isolation| isolation.isolator);
+        let several = several.filter(|several| {
             matches!(
-                own,
+                several,
                 Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
             )
         });
@@ -128,7 +128,10 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             );
         }
         let in_plan = matches!(building.structure, jostle::Structure::Tiers(_));
-        let stop = building.base.isolation.and_then(|own| own.stops[0]);
+        let stop = building
+            .base
+            .isolation
+            .and_then(|isolation| isolation.stops[0]);
         if in_plan && stop.is_some() {
             refuse(
                 format!("building[{index}].isolation.stop"),
@@ -136,13 +139,15 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             );
         }
         let structure = export.system.structures().get(index);
-        if structure.is_some_and(|own| own.modal_damping.is_some()) {
+        if structure.is_some_and(|structure| structure.modal_damping.is_some()) {
             refuse(
                 format!("building[{index}].damping.modes"),
                 "\"all\" cannot be exported: OpenSees has one list of modal ratios for all buildings together; give two modes, such as modes = [1, 2], to compare".into(),
             );
         }
-        if structure.is_some_and(|own| !own.structure.discretization.sections.is_empty()) {
+        if structure
+            .is_some_and(|structure| !structure.structure.discretization.sections.is_empty())
+        {
             refuse(
                 format!("building[{index}].hinges"),
                 "of fibres are not exported yet; give columns hinges with moments to compare"
@@ -158,8 +163,8 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             (_, Some(frame)) => &frame.diagonals,
             _ => &[],
         };
-        let crushed = |own: &jostle::Diagonal| {
-            let law = own.hysteresis.as_ref();
+        let crushed = |diagonal: &jostle::Diagonal| {
+            let law = diagonal.hysteresis.as_ref();
             law.is_some_and(|law| law.backbone().open_side().is_some())
         };
         if diagonals.iter().any(crushed) {
@@ -170,7 +175,9 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         }
         let frames: Vec<&jostle::Frame> = match &building.structure {
             jostle::Structure::Frame(frame) => vec![frame],
-            jostle::Structure::Tiers(tiers) => tiers.frames.iter().map(|own| &own.frame).collect(),
+            jostle::Structure::Tiers(tiers) => {
+                tiers.frames.iter().map(|frame| &frame.frame).collect()
+            }
             _ => Vec::new(),
         };
         if frames.iter().any(|frame| !frame.walls.is_empty()) {
@@ -179,7 +186,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "stands on rigid arms that turn with it, which are not exported yet; make it a column with its EI, EA and GA to compare frames without arms".into(),
             );
         }
-        let ends_in_space = in_space.is_some_and(|own| !own.rigid_zones.is_empty());
+        let ends_in_space = in_space.is_some_and(|space| !space.rigid_zones.is_empty());
         if ends_in_space || frames.iter().any(|frame| !frame.rigid_zones.is_empty()) {
             refuse(
                 format!("building[{index}].rigid_ends"),

@@ -35,8 +35,8 @@ impl Script<'_> {
                 problem: problem.to_owned(),
             })
         };
-        let own = &self.export.model.buildings[index];
-        let Structure::Tiers(tiers) = &own.structure else {
+        let model_building = &self.export.model.buildings[index];
+        let Structure::Tiers(tiers) = &model_building.structure else {
             return refuse("", "has no floors in plan that can be exported");
         };
         if !tiers.frames.is_empty() {
@@ -45,8 +45,8 @@ impl Script<'_> {
                 "frames at lines of a plan are not exported yet; give stiffness or [[building.element]] instead",
             );
         }
-        if own.base.isolation.is_none() && !own.base.is_fixed() {
-            let key = match own.base.foundation {
+        if model_building.base.isolation.is_none() && !model_building.base.is_fixed() {
+            let key = match model_building.base.foundation {
                 Some(_) => ".foundation",
                 None => ".base",
             };
@@ -76,7 +76,10 @@ impl Script<'_> {
         }
         let lumped = tiers.lumped_floors();
         let floors = &building.discretization.floors;
-        let isolated = own.base.isolation.zip(building.discretization.mat);
+        let isolated = model_building
+            .base
+            .isolation
+            .zip(building.discretization.mat);
         let mat = isolated.map(|(isolation, _)| tiers.mat(isolation.mat_mass));
         let foot = isolated.map(|(_, mat)| mat.node);
         let moving = mat.iter().zip(&foot).chain(lumped.iter().zip(floors));
@@ -122,10 +125,10 @@ impl Script<'_> {
                 let first = self.point(index, lower, spring.at);
                 let last = self.point(index, Some(floors[storey]), spring.at);
                 let directions = [(DIRECTIONS[spring.axis.index()], material)];
-                let damped = own.yielding_damping.unwrap_or_default();
+                let damped = model_building.yielding_damping.unwrap_or_default();
                 self.spring(first, last, &directions, damped);
             }
-            if own.gravity.p_delta {
+            if model_building.gravity.p_delta {
                 let mut springs = tiers.softening(&lumped, storey);
                 springs.stiffness = springs.stiffness.map(|stiffness| -stiffness);
                 self.add_storey_in_plan(
@@ -203,11 +206,11 @@ impl Script<'_> {
 
     /// Bearings between points of the mat and of the ground: springs and dashpots, and what yields or slides.
     fn add_bearings(&mut self, index: usize, building: &BuildingSystem, mat: Mat) {
-        let Some(own) = &building.discretization.stick_model.plan_mat else {
+        let Some(plan_mat) = &building.discretization.stick_model.plan_mat else {
             return;
         };
-        let share = 1.0 / own.bearings.len() as f64;
-        for at in &own.bearings {
+        let share = 1.0 / plan_mat.bearings.len() as f64;
+        for at in &plan_mat.bearings {
             let ground = self.point(index, None, *at);
             let above = self.point(index, Some(mat.node), *at);
             let (stiffness, dashpot) = (share * mat.stiffness, share * mat.dashpot);
@@ -216,7 +219,7 @@ impl Script<'_> {
                 let both = [DIRECTIONS[0], DIRECTIONS[1]].map(|direction| (direction, material));
                 self.spring(ground, above, &both, ProportionalDamping::None);
             }
-            if let Some([along_x, ..]) = own.slider {
+            if let Some([along_x, ..]) = plan_mat.slider {
                 let curve = along_x.backbone();
                 let element = self.element();
                 let _ = writeln!(
@@ -355,9 +358,11 @@ impl Script<'_> {
 
     /// Node of a floor; 0 is the mat.
     fn level(&self, building: usize, floor: usize) -> usize {
-        let own = &self.export.system.buildings[building].discretization;
-        let mat = own.mat.map_or(0, |mat| mat.node);
-        floor.checked_sub(1).map_or(mat, |index| own.floors[index])
+        let discretization = &self.export.system.buildings[building].discretization;
+        let mat = discretization.mat.map_or(0, |mat| mat.node);
+        floor
+            .checked_sub(1)
+            .map_or(mat, |index| discretization.floors[index])
     }
 
     /// Ends of the edge beyond which a corner touches nothing.

@@ -52,13 +52,13 @@ impl Matrix {
         let places: Vec<FoundationPlace> = system
             .buildings
             .iter()
-            .filter_map(|own| own.foundation)
+            .filter_map(|building| building.foundation)
             .collect();
         let n = 2 * places.len();
         let mut sums = [vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]];
         for (at, place) in places.iter().enumerate() {
-            let own = [place.own_stiffness, place.own_damping];
-            for (sum, [uu, ut, tt]) in sums.iter_mut().zip(own) {
+            let coefficients = [place.own_stiffness, place.own_damping];
+            for (sum, [uu, ut, tt]) in sums.iter_mut().zip(coefficients) {
                 sum[2 * at][2 * at] += uu;
                 sum[2 * at][2 * at + 1] += ut;
                 sum[2 * at + 1][2 * at] += ut;
@@ -68,7 +68,7 @@ impl Matrix {
         let number = |dof: usize| {
             places.iter().enumerate().find_map(|(at, place)| {
                 let dofs = [place.sway, Some(place.turning)];
-                let component = dofs.iter().position(|own| *own == Some(dof))?;
+                let component = dofs.iter().position(|candidate| *candidate == Some(dof))?;
                 Some(2 * at + component)
             })
         };
@@ -129,8 +129,8 @@ pub(super) fn springs_of(
         let of = |dof: usize| {
             shares
                 .iter()
-                .find(|(own, _)| *own == dof)
-                .map_or(0.0, |own| own.1)
+                .find(|(candidate, _)| *candidate == dof)
+                .map_or(0.0, |share| share.1)
         };
         let scale = of(i) * of(j);
         let sizes = matrices.each_mut().map(|matrix| {

@@ -18,9 +18,9 @@ pub(super) fn joints_of(building: &Building) -> usize {
         return 0;
     };
     let frame = tiers.space_frame.as_ref();
-    let crossings = frame.map_or(0, |own| own.lines_x.len() * own.lines_y.len());
-    let mut members = frame.into_iter().flat_map(|own| &own.members);
-    let hinged = members.by_ref().filter(|own| own.may_yield()).count();
+    let crossings = frame.map_or(0, |frame| frame.lines_x.len() * frame.lines_y.len());
+    let mut members = frame.into_iter().flat_map(|frame| &frame.members);
+    let hinged = members.by_ref().filter(|member| member.may_yield()).count();
     crossings * (tiers.floors.len() + 1) + 2 * hinged
 }
 
@@ -61,7 +61,10 @@ impl Script<'_> {
                         self.next_point[index] += 1;
                         tags.insert(place, tag);
                         let [x, y] = frame.point(place.1).map(rounded);
-                        let moving = place.0.checked_sub(1).map_or(mat, |own| Some(floors[own]));
+                        let moving = place
+                            .0
+                            .checked_sub(1)
+                            .map_or(mat, |floor| Some(floors[floor]));
                         let floor = match moving {
                             Some(node) => self.tag(index, node).to_string(),
                             None => "None".to_owned(),
@@ -107,16 +110,20 @@ impl Script<'_> {
                 ends[0], ends[1], section.torsional_rigidity, towards[0], towards[1], towards[2],
             );
         }
-        for own in &frame.diagonals {
-            let Some(crossings) = own.place.crossings() else {
+        for diagonal in &frame.diagonals {
+            let Some(crossings) = diagonal.place.crossings() else {
                 continue;
             };
-            let levels = [own.place.storey - 1, own.place.storey].into_iter();
+            let levels = [diagonal.place.storey - 1, diagonal.place.storey].into_iter();
             let joints = levels.zip(crossings).map(|place| tags.get(&place).copied());
             let [Some(first), Some(last)] = joints.collect::<Vec<_>>()[..] else {
                 return Err("has a brace without a joint");
             };
-            self.add_diagonal([first, last], own.stiffness, own.hysteresis.as_ref())?;
+            self.add_diagonal(
+                [first, last],
+                diagonal.stiffness,
+                diagonal.hysteresis.as_ref(),
+            )?;
         }
         Ok(())
     }
@@ -149,7 +156,7 @@ impl Script<'_> {
             let found = places.iter().position(|place| *place == wanted);
             let hinge = found.map(|at| &sticks.hinges[at]);
             springs.push(
-                match hinge.and_then(|own| Some((own, own.ends, own.hysteresis?))) {
+                match hinge.and_then(|hinge| Some((hinge, hinge.ends, hinge.hysteresis?))) {
                     Some((hinge, ends, hysteresis)) => {
                         let material = self.materials.yielding(&hysteresis)?;
                         // Strain is that of the second node against the first; the rotation of a hinge counts the other way.
@@ -201,9 +208,11 @@ fn stiffest(frame: &SpaceFrame, storey_heights: &[f64]) -> [f64; 2] {
         let section = &member.section;
         let [a, b] = section.flexural_rigidity;
         let bending = a.max(b) / length;
-        let axial = section.axial_rigidity.map_or(0.0, |own| own / length);
+        let axial = section
+            .axial_rigidity
+            .map_or(0.0, |axial_rigidity| axial_rigidity / length);
         most[0] = most[0].max(axial).max(12.0 * bending / (length * length));
         most[1] = most[1].max(4.0 * bending);
     }
-    most.map(|own| STIFF * own)
+    most.map(|stiffness| STIFF * stiffness)
 }

@@ -77,8 +77,8 @@ impl Ties {
                     union.join(place(*foot, component), place(foundation.node, component));
                 }
             }
-            for (node, own) in stick_model.nodes.iter().enumerate() {
-                if own.support == Support::Guided {
+            for (node, stick_node) in stick_model.nodes.iter().enumerate() {
+                if stick_node.support == Support::Guided {
                     union.join(place(node, ROTATION), place(foundation.node, ROTATION));
                 }
             }

@@ -43,8 +43,8 @@ fn masses_are_damped_relative_to_their_ground() {
     for (index, building) in system.buildings.iter().enumerate().take(3) {
         // The last node of a building is a point of its ground.
         let block = (index + 1).to_string();
-        let mut own = nodes.iter().filter(|row| row[0].starts_with(&block));
-        let ground = &own.next_back().expect("nodes")[0];
+        let mut rows = nodes.iter().filter(|row| row[0].starts_with(&block));
+        let ground = &rows.next_back().expect("nodes")[0];
         let held = ["1"; 3].map(str::to_owned);
         assert!(
             supports
@@ -54,7 +54,9 @@ fn masses_are_damped_relative_to_their_ground() {
         let mut sum = 0.0;
         for row in springs.iter().filter(|row| row[1] == *ground) {
             let mut all = materials.iter();
-            let dashpot = all.find(|own| own[1] == row[4]).expect("a material");
+            let dashpot = all
+                .find(|material| material[1] == row[4])
+                .expect("a material");
             assert_eq!([&row[3][..], &dashpot[2]], ["1", "0.0"]);
             sum += number(&dashpot[3]);
         }

@@ -41,9 +41,9 @@ fn opensees_finds_the_same_forces() {
     let (mut first, mut worst, mut compared) = (0, 0.0_f64, 0);
     for [building, member] in history.members() {
         let building = &system.buildings[*building];
-        let own = &building.members.members[*member];
-        assert!(["foot", "left"].contains(&section_name(own.place, own.sections[0].at)));
-        let due = &due[&member_name(building, own)[..]];
+        let member = &building.members.members[*member];
+        assert!(["foot", "left"].contains(&section_name(member.place, member.sections[0].at)));
+        let due = &due[&member_name(building, member)[..]];
         for value in 0..4 {
             let sizes = due.iter().map(|row| row[1 + value].abs());
             let scale = sizes.fold(0.0, f64::max);
@@ -58,7 +58,7 @@ fn opensees_finds_the_same_forces() {
                 compared += 1;
             }
         }
-        first += own.sections.len();
+        first += member.sections.len();
     }
     assert_eq!(compared, 5 * 4 * 20);
     // The stored numbers carry a tenth of a millinewton.

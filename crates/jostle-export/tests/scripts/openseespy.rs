@@ -43,12 +43,15 @@ fn ties_leave_as_many_displacements_as_the_transfer_path() {
         .iter()
         .map(|row| number(row[3]))
         .sum();
-    let own: f64 = system
+    let total_masses: f64 = system
         .buildings
         .iter()
         .map(|building| building.equations.total_mass())
         .sum();
-    assert!((mass / own - 1.0).abs() < 1e-12, "{mass} against {own}");
+    assert!(
+        (mass / total_masses - 1.0).abs() < 1e-12,
+        "{mass} against {total_masses}"
+    );
 }
 
 #[test]
@@ -189,9 +192,9 @@ fn material_of(kind: jostle::LawKind, stiffness: f64) -> (Vec<String>, String) {
     let text = export(&input).expect("it can be exported").text;
     let materials = table(&text, "MATERIALS");
     let contact = &table(&text, "CONTACTS")[0];
-    let own = materials.iter().find(|row| row[1] == contact[3]);
-    let own = own.expect("its material").iter();
-    (own.map(|word| word.to_string()).collect(), text.clone())
+    let material = materials.iter().find(|row| row[1] == contact[3]);
+    let words = material.expect("its material").iter();
+    (words.map(|word| word.to_string()).collect(), text.clone())
 }
 
 #[test]
@@ -381,11 +384,11 @@ fn columns_that_fail_in_shear_are_exported() {
     // Springs at the feet of nine columns, and at the heads of three that are struck.
     let tags: Vec<&str> = failing.iter().map(|row| row[1]).collect();
     let springs = table(&exported.text, "SPRINGS");
-    let own = springs.iter().filter(|row| {
+    let springs = springs.iter().filter(|row| {
         let material = row[4].trim_end_matches([')', ',']);
         row[3] == "((1" && tags.contains(&material)
     });
-    assert_eq!(own.count(), 12);
+    assert_eq!(springs.count(), 12);
 }
 
 #[test]

@@ -18,8 +18,11 @@ fn carrier(text: &str, tag: &str) -> Option<(String, [f64; 2])> {
     }
     let arms = table(text, "ARMS");
     let floor = arms.iter().find(|row| row[1] == tag).expect("tied");
-    let (own, centre) = (place(tag), place(&floor[0]));
-    Some((floor[0].clone(), [own[0] - centre[0], own[1] - centre[1]]))
+    let (position, centre) = (place(tag), place(&floor[0]));
+    Some((
+        floor[0].clone(),
+        [position[0] - centre[0], position[1] - centre[1]],
+    ))
 }
 
 /// Energy of the springs of one building when floors move, twice.
@@ -27,7 +30,10 @@ fn energy(text: &str, block: &str, damped: &str, floors: &[String], motion: &[[f
     let materials = table(text, "MATERIALS");
     let moved = |tag: &str| {
         carrier(text, tag).map_or([0.0; 3], |(floor, arm)| {
-            let index = floors.iter().position(|own| *own == floor).expect("own");
+            let index = floors
+                .iter()
+                .position(|candidate| *candidate == floor)
+                .expect("own");
             let [x, y, turn] = motion[index];
             [x - turn * arm[1], y + turn * arm[0], turn]
         })
@@ -48,8 +54,8 @@ fn energy(text: &str, block: &str, damped: &str, floors: &[String], motion: &[[f
                 "2" => 1,
                 _ => 2,
             };
-            let own = materials.iter().find(|row| row[1] == *pair[1]);
-            let stiffness = number(&own.expect("a material")[2]);
+            let material = materials.iter().find(|row| row[1] == *pair[1]);
+            let stiffness = number(&material.expect("a material")[2]);
             sum += stiffness * (b[component] - a[component]).powi(2);
         }
     }
@@ -116,8 +122,8 @@ fn points_of_a_face_coincide_and_share_the_stiffness() {
     let mut sum = 0.0;
     for row in &contacts {
         assert_eq!(place(&row[1]), place(&row[2]));
-        let own = materials.iter().find(|own| own[1] == row[3]);
-        sum += number(&own.expect("a material")[2]);
+        let material = materials.iter().find(|material| material[1] == row[3]);
+        sum += number(&material.expect("a material")[2]);
     }
     assert!((sum / 500e6 - 1.0).abs() < 1e-9, "{sum}");
     let faces = table(&text, "FACES");
@@ -139,8 +145,8 @@ fn corners_have_the_ends_of_their_edges() {
     assert_eq!(ends.len(), 2);
     // Of corners that pass each other, the end is the indentation of the other.
     let gap = |row: &Vec<String>| number(&row[4]);
-    for (own, other) in [(0, 1), (1, 0)] {
-        let inside = number(ends[own].last().expect("a distance"));
+    for (one, other) in [(0, 1), (1, 0)] {
+        let inside = number(ends[one].last().expect("a distance"));
         assert!(
             (inside + gap(&contacts[other])).abs() < 1e-12,
             "{ends:?} {contacts:?}"
@@ -174,8 +180,8 @@ fn space_frames_are_written_member_by_member() {
     let members = table(&text, "COLUMNS_AND_BEAMS");
     assert_eq!(members.len(), 3 * (9 + 6 + 6));
     let place = |tag: &str| {
-        let own = joints.iter().find(|row| row[0] == tag).expect("a joint");
-        [1, 2, 3].map(|axis| number(&own[axis]))
+        let joint = joints.iter().find(|row| row[0] == tag).expect("a joint");
+        [1, 2, 3].map(|axis| number(&joint[axis]))
     };
     for row in &members {
         let (a, b) = (place(&row[1]), place(&row[2]));
@@ -223,8 +229,8 @@ fn braces_of_space_frames_join_their_joints() {
     let text = export(&model(&text)).expect("it can be exported").text;
     let joints = table(&text, "JOINTS");
     let place = |tag: &str| {
-        let own = joints.iter().find(|row| row[0] == tag).expect("a joint");
-        [1, 2, 3].map(|axis| number(&own[axis]))
+        let joint = joints.iter().find(|row| row[0] == tag).expect("a joint");
+        [1, 2, 3].map(|axis| number(&joint[axis]))
     };
     let rows = table(&text, "DIAGONALS");
     let found = rows
@@ -286,8 +292,8 @@ fn bearings_in_plan_join_the_ground_and_the_mat() {
     let supports = table(&text, "SUPPORTS");
     let mat = &table(&text, "LEVELS")[0];
     assert_eq!(number(&mat[1]), 0.0);
-    let own = |tag: &str| nodes.iter().find(|row| row[0] == tag).expect("a node");
-    let heavy = own(&mat[0]);
+    let node = |tag: &str| nodes.iter().find(|row| row[0] == tag).expect("a node");
+    let heavy = node(&mat[0]);
     assert_eq!([1, 2, 3].map(|at| number(&heavy[at])), [7.0, 5.0, 190e3]);
     let sliders = table(&text, "SLIDERS");
     assert_eq!(sliders.len(), 6);
@@ -295,19 +301,19 @@ fn bearings_in_plan_join_the_ground_and_the_mat() {
     let materials = table(&text, "MATERIALS");
     for row in &sliders {
         let [ground, above] = [&row[1], &row[2]];
-        assert!(supports.iter().any(|own| own[0] == **ground));
+        assert!(supports.iter().any(|node| node[0] == **ground));
         assert!(arms.iter().any(|arm| arm[0] == mat[0] && arm[1] == **above));
         for axis in [1, 2] {
-            assert_eq!(own(ground)[axis], own(above)[axis]);
+            assert_eq!(node(ground)[axis], node(above)[axis]);
         }
         // (K1 - K2) and Q = F_y (1 - K2/K1) of one of six.
         assert!((number(&row[3]) / (36e6 * 0.88 / 6.0) - 1.0).abs() < 1e-12);
         assert!((number(&row[4]) / (220e3 * 0.88 / 6.0) - 1.0).abs() < 1e-12);
         let beside = springs
             .iter()
-            .find(|own| own[1] == **ground && own[2] == **above);
+            .find(|spring| spring[1] == **ground && spring[2] == **above);
         let material = beside.expect("a spring")[4].trim_matches([')', ',']);
-        let material = materials.iter().find(|own| own[1] == material);
+        let material = materials.iter().find(|candidate| candidate[1] == material);
         let material = material.expect("a material");
         assert!((number(&material[2]) / (36e6 * 0.12 / 6.0) - 1.0).abs() < 1e-12);
         assert!((number(&material[3]) / (300e3 / 6.0) - 1.0).abs() < 1e-12);

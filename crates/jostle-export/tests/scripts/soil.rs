@@ -58,15 +58,15 @@ fn some_motion(system: &System, seed: u32) -> Vec<f64> {
 /// Twice the rate at which dashpots and damping of masses take energy.
 fn power(building: &BuildingSystem, x: &[f64]) -> f64 {
     let equations = &building.equations;
-    let own = &x[building.offset..building.offset + equations.len()];
-    let masses = equations.mass.iter().zip(own);
+    let values = &x[building.offset..building.offset + equations.len()];
+    let masses = equations.mass.iter().zip(values);
     let of_masses: f64 = masses.map(|(mass, value)| mass * value * value).sum();
-    equations.alpha * of_masses + quadratic(&equations.dashpots, own)
+    equations.alpha * of_masses + quadratic(&equations.dashpots, values)
 }
 
 impl Moved {
     fn new(text: &str, system: &System, x: &[f64]) -> Self {
-        let mut own = BTreeMap::new();
+        let mut displacements = BTreeMap::new();
         for (index, building) in system.buildings.iter().enumerate() {
             let sticks = &building.discretization.stick_model;
             let base = sticks.foundation.as_ref().expect("on soil");
@@ -83,13 +83,13 @@ impl Moved {
                     (3, equations.rotation(node).map(value)),
                 ] {
                     if let Some(moved) = moved {
-                        own.insert((tag.clone(), direction), moved);
+                        displacements.insert((tag.clone(), direction), moved);
                     }
                 }
             }
         }
         Self {
-            own,
+            own: displacements,
             ties: table(text, "TIES"),
             supports: table(text, "SUPPORTS"),
         }
@@ -126,8 +126,8 @@ fn material(text: &str, tag: &str) -> [f64; 2] {
 /// Twice the energy of all springs, the part of those with Rayleigh damping, and the power of all dashpots.
 fn energies(text: &str, moved: &Moved) -> [f64; 3] {
     let mut sums = [0.0; 3];
-    let mut add = |own: &str, strain: f64, damped: &str| {
-        let [stiffness, dashpot] = material(text, own);
+    let mut add = |tag: &str, strain: f64, damped: &str| {
+        let [stiffness, dashpot] = material(text, tag);
         sums[0] += stiffness * strain * strain;
         sums[1] += if damped == "\"initial\"" {
             stiffness * strain * strain
@@ -193,9 +193,9 @@ fn springs_and_levers_have_the_energy_of_the_matrices() {
         let mut expected = [0.0; 3];
         for building in &system.buildings {
             let equations = &building.equations;
-            let own = &x[building.offset..building.offset + equations.len()];
-            let elastic = quadratic(&equations.stiffness, own);
-            expected[0] += elastic + quadratic(&equations.undamped, own);
+            let values = &x[building.offset..building.offset + equations.len()];
+            let elastic = quadratic(&equations.stiffness, values);
+            expected[0] += elastic + quadratic(&equations.undamped, values);
             expected[1] += elastic;
             expected[2] += power(building, &x);
         }
@@ -265,7 +265,9 @@ fn links_inside_turn_with_the_foundation() {
         let sign = if lower == &row[1] { 1.0 } else { -1.0 };
         assert!((strain - sign * shortening).abs() < 1e-12, "{row:?}");
         let mut all = materials.iter();
-        let material = all.find(|own| own[1] == row[3]).expect("a material");
+        let material = all
+            .find(|material| material[1] == row[3])
+            .expect("a material");
         if material[0] == "\"ElasticPPGap\"" {
             cables.push((sign, number(&material[4])));
         }
@@ -288,8 +290,8 @@ fn feet_of_columns_stand_on_the_foundation() {
     let (nodes, levered) = (table(&text, "NODES"), table(&text, "LEVERED"));
     let (ties, supports) = (table(&text, "TIES"), table(&text, "SUPPORTS"));
     let tag = |node: usize| (2000 + node + 1).to_string();
-    let own = |tag: &str| nodes.iter().find(|row| row[0] == tag).expect("a node");
-    let own_base = own(&tag(base.node));
+    let node = |tag: &str| nodes.iter().find(|row| row[0] == tag).expect("a node");
+    let own_base = node(&tag(base.node));
     assert_eq!(
         [number(&own_base[3]), number(&own_base[4])],
         [90e3, 90e3 * 81.0 / 12.0]
@@ -359,13 +361,13 @@ fn storeys_that_differ_by_side_are_mirrored() {
     let text = export(&input).expect("it can be exported").text;
     let levered = table(&text, "LEVERED");
     let materials = table(&text, "MATERIALS");
-    let own = |tag: &String| {
+    let row = |tag: &String| {
         let mut rows = materials.iter();
         rows.find(|row| row[1] == *tag).expect("a material")
     };
-    let parallel = own(&levered[0][3]);
+    let parallel = row(&levered[0][3]);
     assert_eq!(parallel[0], "\"Parallel\"");
-    let second = own(&parallel[3]);
+    let second = row(&parallel[3]);
     let strains = [&second[3], &second[4]].map(|strain| number(strain));
     assert!((strains[0] - 6e-3).abs() < 1e-12, "{strains:?}");
     assert!((strains[1] + 9e-3).abs() < 1e-12, "{strains:?}");

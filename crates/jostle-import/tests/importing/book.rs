@@ -70,17 +70,25 @@ pub(crate) fn book(sheets: &[Sheet], layout: Layout, commas: bool) -> Vec<u8> {
             Layout::Bare => {}
         }
         line(
-            sheet.columns.iter().map(|own| own.0.to_owned()).collect(),
+            sheet
+                .columns
+                .iter()
+                .map(|column| column.0.to_owned())
+                .collect(),
             false,
         );
         if layout != Layout::Bare {
             line(
-                sheet.columns.iter().map(|own| own.1.to_owned()).collect(),
+                sheet
+                    .columns
+                    .iter()
+                    .map(|column| column.1.to_owned())
+                    .collect(),
                 false,
             );
         }
-        for own in &sheet.rows {
-            line(own.clone(), true);
+        for row in &sheet.rows {
+            line(row.clone(), true);
         }
     }
     book.save_to_buffer().expect("a workbook")

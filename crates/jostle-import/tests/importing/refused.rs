@@ -429,7 +429,7 @@ fn damaged_files_never_panic() {
             ("Stiff Y", "kN/m"),
         ],
         (0..3)
-            .map(|own| row(&[&format!("Story{}", own + 1), "EX"], &[1e5, 1e5]))
+            .map(|index| row(&[&format!("Story{}", index + 1), "EX"], &[1e5, 1e5]))
             .collect(),
     ));
     let workbook = book(&sheets, Layout::Titled, false);

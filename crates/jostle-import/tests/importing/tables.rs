@@ -138,8 +138,8 @@ fn storey_stiffnesses_are_the_shear_building_in_every_layout() {
         definitions(FLOORS),
     ];
     for (sheet, columns, factor) in [(1, 2..4, 1e-3), (2, 2..3, 1e-3)] {
-        for own in &mut sheets[sheet].rows {
-            for cell in &mut own[columns.clone()] {
+        for row in &mut sheets[sheet].rows {
+            for cell in &mut row[columns.clone()] {
                 *cell = (cell.parse::<f64>().expect("a number") * factor).to_string();
             }
         }
@@ -174,10 +174,10 @@ fn unit_forces_are_the_building() {
 /// Modes of the ten storeys along X beside modes along Y, in units of the workbook.
 fn modes(count: usize) -> Vec<Sheet> {
     let system = System::assemble(&sound(&format!("{MOTION}{}", storeys())).model).expect("sound");
-    let own = eigen::modes(system.buildings[0].alone(), count).expect("modes");
+    let modes = eigen::modes(system.buildings[0].alone(), count).expect("modes");
     let mut rows = Vec::new();
     let mut table = Vec::new();
-    for (index, mode) in own.iter().enumerate() {
+    for (index, mode) in modes.iter().enumerate() {
         let period = std::f64::consts::TAU / mode.circular_frequency;
         // Odd modes of the source are those along Y.
         for (step, axis) in [(2 * index + 1, 1), (2 * index + 2, 0)] {
@@ -239,21 +239,21 @@ fn modes_are_the_building_as_far_as_they_go() {
         let mut sheets = vec![definitions(FLOORS), masses(FLOORS)];
         sheets.extend(modes(count));
         let mut hit = unit_forces(12);
-        hit.rows.retain(|own| own[2] == "FX Story5");
+        hit.rows.retain(|row| row[2] == "FX Story5");
         sheets[3].rows.extend(hit.rows);
         let bytes = book(&sheets, Layout::Titled, false);
         let found = imported(Program::Etabs, &[("A.xlsx", &bytes)], &unit());
         assert!(found.toml.contains("contact_floor = 5"), "{}", found.toml);
         let off = difference(&periods(&model(&found), count), &all[..count]);
         assert!(off < 1e-6, "{count} modes: {off:.1e}");
-        let own = found
+        let split_once = found
             .toml
             .split("[motion]")
             .nth(1)
             .and_then(|text| text.split_once("[[building]]"))
             .expect("a building")
             .1;
-        let off = force_of_pair(&format!("{MOTION}[[building]]{own}")) / whole - 1.0;
+        let off = force_of_pair(&format!("{MOTION}[[building]]{split_once}")) / whole - 1.0;
         assert!(off.abs() < allowed, "{count} modes: {off:.2e}");
     }
 }
@@ -314,9 +314,9 @@ fn unit_loads_are_the_building_in_space() {
 fn modes_in_space(input: &Input, count: usize) -> Vec<u8> {
     let mut sheets = tables_of(input, 12);
     let system = System::assemble(&input.model).expect("sound");
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let (mut rows, mut table) = (Vec::new(), Vec::new());
-    for (index, mode) in eigen::modes(own.alone(), count)
+    for (index, mode) in eigen::modes(building.alone(), count)
         .expect("modes")
         .iter()
         .enumerate()
@@ -326,12 +326,12 @@ fn modes_in_space(input: &Input, count: usize) -> Vec<u8> {
             &["Modal"],
             &[index as f64 + 1.0, rounded(mode.period(), 12)],
         ));
-        for floor in 0..own.floors.len() {
+        for floor in 0..building.floors.len() {
             // mm, mm, rad.
             let by = [1e3, 1e3, 1.0].iter().enumerate();
             let by: Vec<f64> = by
                 .map(|(component, unit)| {
-                    rounded(unit * mode.shape[dof(own, 3 * floor + component)], 12)
+                    rounded(unit * mode.shape[dof(building, 3 * floor + component)], 12)
                 })
                 .collect();
             let name = format!("Story{}", floor + 1);
@@ -370,12 +370,12 @@ fn modes_that_turn_are_the_building_in_space() {
         let found = imported(Program::Etabs, &[("A.xlsx", &bytes)], options);
         let off = difference(&periods(&model(&found), count), &periods(&input, count));
         assert!(off < 1e-8, "{count} modes: {off:.1e}");
-        let [own, all] = [&model(&found), &input].map(|input| {
+        let [column, all] = [&model(&found), &input].map(|input| {
             let system = System::assemble(&input.model).expect("sound");
-            let own = &system.buildings[0];
-            [0, 3, 6].map(|place| column(own, place)[place])
+            let building = &system.buildings[0];
+            [0, 3, 6].map(|place| column(building, place)[place])
         });
-        let off = difference(&own, &all);
+        let off = difference(&column, &all);
         let allowed = if count == 9 { 1e-7 } else { 0.01 };
         assert!(count < 6 || off < allowed, "{count} modes: {off:.1e}");
     }

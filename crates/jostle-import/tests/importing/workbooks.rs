@@ -7,20 +7,20 @@ use jostle_io::Input;
 use crate::book::{Sheet, row};
 
 /// Displacement of a floor in the equations: along x and across and rotation of the floors.
-pub(crate) fn dof(own: &BuildingSystem, place: usize) -> usize {
-    own.tracks[(place % 3) * own.floors.len() + place / 3].dof
+pub(crate) fn dof(system: &BuildingSystem, place: usize) -> usize {
+    system.tracks[(place % 3) * system.floors.len() + place / 3].dof
 }
 
 /// Solves K u = unit force by Gauss' elimination.
-pub(crate) fn column(own: &BuildingSystem, load: usize) -> Vec<f64> {
-    let n = 3 * own.floors.len();
+pub(crate) fn column(system: &BuildingSystem, load: usize) -> Vec<f64> {
+    let n = 3 * system.floors.len();
     let mut rows: Vec<Vec<f64>> = vec![vec![0.0; n + 1]; n];
     for place in 0..n {
         let (mut by, mut force) = (vec![0.0; n], vec![0.0; n]);
-        by[dof(own, place)] = 1.0;
-        own.equations.stiffness.multiply_add(&by, &mut force);
+        by[dof(system, place)] = 1.0;
+        system.equations.stiffness.multiply_add(&by, &mut force);
         for (row, values) in rows.iter_mut().enumerate() {
-            values[place] = force[dof(own, row)];
+            values[place] = force[dof(system, row)];
         }
     }
     rows[load][n] = 1.0;
@@ -72,11 +72,11 @@ pub(crate) const MASSES: [(&str, &str); 7] = [
 /// Storeys, masses, joints, loads of 1000 kN and 1000 kN·m, displacements to so many digits, and modes.
 pub(crate) fn tables_of(input: &Input, digits: usize) -> Vec<Sheet> {
     let system = System::assemble(&input.model).expect("sound");
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
         panic!("a building with a plan")
     };
-    let floors = own.floors.len();
+    let floors = building.floors.len();
     let name = |floor: usize| format!("Story{}", floor + 1);
     let [
         mut stories,
@@ -91,9 +91,9 @@ pub(crate) fn tables_of(input: &Input, digits: usize) -> Vec<Sheet> {
             &["T1", &name(floor)],
             &[rounded(tiers.storey_heights[floor] * 1e3, 9)],
         ));
-        let [x, y] = own.discretization.centres[floor];
-        let [m, _, j] =
-            [0, 1, 2].map(|component| own.equations.mass[dof(own, 3 * floor + component)]);
+        let [x, y] = building.discretization.centres[floor];
+        let [m, _, j] = [0, 1, 2]
+            .map(|component| building.equations.mass[dof(building, 3 * floor + component)]);
         mass.push(row(
             &[&name(floor), "D1"],
             &[rounded(m, 10), rounded(m, 10), rounded(j * 1e-3, 10), x, y],
@@ -117,7 +117,7 @@ pub(crate) fn tables_of(input: &Input, digits: usize) -> Vec<Sheet> {
         let mut sizes = [0.0; 3];
         sizes[load % 3] = 1e3;
         loads.push(row(&[&case, &name(load / 3), "D1"], &sizes));
-        let by = column(own, load);
+        let by = column(building, load);
         for floor in (0..floors).rev() {
             let by = [1e9, 1e9, 1e6]
                 .iter()
@@ -127,7 +127,7 @@ pub(crate) fn tables_of(input: &Input, digits: usize) -> Vec<Sheet> {
             rows.push(row(&[&name(floor), "D1", &case, "LinStatic", "", ""], &by));
         }
     }
-    for (index, mode) in eigen::modes(own.alone(), 3 * floors)
+    for (index, mode) in eigen::modes(building.alone(), 3 * floors)
         .expect("modes")
         .iter()
         .enumerate()

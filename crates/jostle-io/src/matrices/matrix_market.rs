@@ -87,13 +87,13 @@ pub(super) fn parse(text: &str) -> Result<Matrix, String> {
             let ([value], true) = (&parts[..], place.1 < columns) else {
                 return Err(format!("line {}: expected one of {count} values", at + 1));
             };
-            let own = (place.0, place.1, *value);
+            let entry = (place.0, place.1, *value);
             place.0 += 1;
             if place.0 == rows {
                 place.1 += 1;
                 place.0 = if symmetric { place.1 } else { 0 };
             }
-            own
+            entry
         };
         found += 1;
         let mut add = |row: usize, column: usize| {

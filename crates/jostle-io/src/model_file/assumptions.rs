@@ -25,7 +25,10 @@ impl Input {
     /// that this is meant.
     #[must_use]
     pub fn unrated(&self) -> Option<String> {
-        let is_known = self.reinforced.iter().any(|own| own.section.ties.is_some());
+        let is_known = self
+            .reinforced
+            .iter()
+            .any(|member| member.section.ties.is_some());
         let is_asked = self.model.analysis.members.envelopes;
         let is_left = is_known && !is_asked && self.capacity == CapacityRequest::WhereKnown;
         is_left.then(|| {

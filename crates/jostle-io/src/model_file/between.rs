@@ -49,7 +49,7 @@ pub(super) fn neighbours(
             let buildings = buildings.iter().map(|building| building.name.as_str());
             buildings.chain(walls)
         };
-        let found = names().position(|own| own == name);
+        let found = names().position(|candidate| candidate == name);
         if found.is_none() {
             let remedy = match nearest(name, names().chain([WALL])) {
                 Some(name) => format!("did you mean \"{name}\"?"),

@@ -136,9 +136,9 @@ pub(super) fn add(
 ) {
     let twice = found
         .iter()
-        .find(|own| all.iter().any(|known| known.place == own.place));
-    if let Some(own) = twice {
-        *reader.bad(entry, format!("gives {} a second time", own.place)) =
+        .find(|diagonal| all.iter().any(|known| known.place == diagonal.place));
+    if let Some(twice) = twice {
+        *reader.bad(entry, format!("gives {} a second time", twice.place)) =
             Some("leave it out here, or name other storeys and bays".into());
         return;
     }
@@ -173,7 +173,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         }
     };
     let rigidity = match (rigidity, stiffness, profile) {
-        (None, None, Some(own)) => Some(Some(own.modulus * own.profile.area())),
+        (None, None, Some(profile)) => Some(Some(profile.modulus * profile.profile.area())),
         _ => rigidity,
     };
     let stiffness_of: &Stiffness<'_> = match (rigidity, stiffness) {
@@ -204,8 +204,8 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     )?;
     if let Some(field) = reader.get(&view, "hinge") {
         const SECTIONS: &[Section] = &[Section::LinkHinge, Section::Buckling];
-        let own = reader.open(&field, SECTIONS)?;
-        let buckles = buckling::asked(reader, &own)?;
+        let hinge = reader.open(&field, SECTIONS)?;
+        let buckles = buckling::asked(reader, &hinge)?;
         for brace in &mut braces {
             // A fault of one is that of all.
             let stiffness = brace.stiffness;
@@ -216,7 +216,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
                     length: libm::hypot(width, bays.heights[brace.place.storey - 1]),
                     profile,
                 };
-                buckling::read(reader, &field, &own, strut)?
+                buckling::read(reader, &field, &hinge, strut)?
             } else {
                 read_spring(reader, &field, SECTIONS, Some(stiffness), Dimension::Force)?
             });

@@ -120,13 +120,13 @@ pub(super) fn read(
     let yield_force = needed(
         "yield",
         yielding,
-        of_profile.map(|(own, strength)| own.profile.area() * strength),
+        of_profile.map(|(steel_member, strength)| steel_member.profile.area() * strength),
         "\"900 kN\"",
     );
-    let slender = |force: f64, own: SteelMember| {
+    let slender = |force: f64, member: SteelMember| {
         let length = factor * strut.length;
-        let inertia = own.profile.inertia(own.axis);
-        let euler = PI * PI * own.modulus * inertia / (length * length);
+        let inertia = member.profile.inertia(member.axis);
+        let euler = PI * PI * member.modulus * inertia / (length * length);
         (force / euler).sqrt()
     };
     let slenderness = needed(
@@ -140,7 +140,7 @@ pub(super) fn read(
         lever_arm,
         strut
             .profile
-            .map(|own| own.profile.plastic_modulus(own.axis) / own.profile.area()),
+            .map(|profile| profile.profile.plastic_modulus(profile.axis) / profile.profile.area()),
         "\"60 mm\"",
     );
     let (yield_force, slenderness, lever_arm) = (yield_force?, slenderness?, lever_arm?);

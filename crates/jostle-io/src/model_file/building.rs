@@ -107,8 +107,8 @@ fn refuse_plan_keys(reader: &mut Reader<'_>, view: &View<'_>) {
 /// Factors of a building in codes.
 fn read_codes(reader: &mut Reader<'_>, field: &Field<'_>) -> BuildingCodes {
     let view = reader.reopen(field, &[Section::Building]);
-    let own = view.and_then(|view| reader.get(&view, "codes"));
-    own.map_or_else(BuildingCodes::default, |field| {
+    let codes_field = view.and_then(|view| reader.get(&view, "codes"));
+    codes_field.map_or_else(BuildingCodes::default, |field| {
         codes::read_building(reader, &field)
     })
 }
@@ -651,17 +651,17 @@ pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool
 fn read_across(reader: &mut Reader<'_>, view: &View<'_>, base: &Base) -> Option<AcrossBase> {
     let field = reader.get(view, "across")?;
     let view = reader.open(&field, &[Section::AcrossBase])?;
-    let [mut own, _] = base.in_plan();
+    let [mut plan, _] = base.in_plan();
     for (key, dimension, stiffness) in [
         (
             "horizontal_stiffness",
             Dimension::Stiffness,
-            &mut own.horizontal_stiffness,
+            &mut plan.horizontal_stiffness,
         ),
         (
             "rotational_stiffness",
             Dimension::RotationalStiffness,
-            &mut own.rotational_stiffness,
+            &mut plan.rotational_stiffness,
         ),
     ] {
         if reader.get(&view, key).is_some() {
@@ -672,19 +672,19 @@ fn read_across(reader: &mut Reader<'_>, view: &View<'_>, base: &Base) -> Option<
         (
             "horizontal_damping",
             Dimension::Damping,
-            &mut own.horizontal_damping,
+            &mut plan.horizontal_damping,
         ),
         (
             "rotational_damping",
             Dimension::RotationalDamping,
-            &mut own.rotational_damping,
+            &mut plan.rotational_damping,
         ),
     ] {
         if let Some(field) = reader.get(&view, key) {
             *damping = reader.quantity(&field, dimension).unwrap_or(0.0);
         }
     }
-    Some(own)
+    Some(plan)
 }
 
 /// A stiffness; `None` for `"rigid"` and where it is absent.

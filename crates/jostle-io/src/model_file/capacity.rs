@@ -203,13 +203,14 @@ fn rotation_limits(member: &ReinforcedMember) -> Vec<RotationLimits> {
         ..rated(member)
     };
     let across = across.rotation_limits(member.compression);
-    for own in &mut limits {
-        let same = |other: &&RotationLimits| (other.rule, other.measure) == (own.rule, own.measure);
+    for limit in &mut limits {
+        let same =
+            |other: &&RotationLimits| (other.rule, other.measure) == (limit.rule, limit.measure);
         let Some(other) = across.iter().find(same) else {
             continue;
         };
-        for ((_, own), (_, other)) in own.limits.iter_mut().zip(&other.limits) {
-            *own = own.min(*other);
+        for ((_, one), (_, other)) in limit.limits.iter_mut().zip(&other.limits) {
+            *one = one.min(*other);
         }
     }
     limits

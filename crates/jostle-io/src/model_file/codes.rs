@@ -48,8 +48,8 @@ pub(super) fn read(
     codes.zone_factor = positive("zone_factor", Dimension::Dimensionless);
     codes.soil_factor = positive("soil_factor", Dimension::Dimensionless);
     let of_all = factors(reader, &view);
-    for own in &mut codes.buildings {
-        *own = own.or(of_all);
+    for building in &mut codes.buildings {
+        *building = building.or(of_all);
     }
     codes
 }

@@ -146,13 +146,13 @@ impl DamperPaths {
             .and_then(|(index, key)| Some((index.parse::<usize>().ok()?, key)));
         let Some((index, key)) = numbered else { return };
         let damper = index.checked_sub(self.first);
-        if let Some((own, is_single)) = damper.and_then(|index| self.paths.get(index)) {
+        if let Some((entry_path, is_single)) = damper.and_then(|index| self.paths.get(index)) {
             let key = if *is_single && key.starts_with(".floors[") {
                 ".floors"
             } else {
                 key
             };
-            *path = format!("{own}{key}");
+            *path = format!("{entry_path}{key}");
         }
     }
 }

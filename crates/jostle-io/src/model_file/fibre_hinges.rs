@@ -295,25 +295,28 @@ fn read_all(
     let asked = AskedFibres::read(reader, view, false)?;
     let columns: Vec<_> = members?
         .iter()
-        .filter(|own| own.member == Member::Column)
+        .filter(|member| member.member == Member::Column)
         .collect();
     if columns.len() != frame.bare_members()[0] {
         say_without_bars(reader, field, columns.is_empty());
         return None;
     }
     let mut all = BTreeMap::new();
-    for own in columns {
-        if !asked.stand_in(own.floor - 1) {
+    for member in columns {
+        if !asked.stand_in(member.floor - 1) {
             continue;
         }
-        match asked.of_column(&own.section, own.length, false) {
+        match asked.of_column(&member.section, member.length, false) {
             Ok(column) => {
-                all.insert([own.floor - 1, own.place - 1], column);
+                all.insert([member.floor - 1, member.place - 1], column);
             }
             Err(problem) => {
                 reader.bad(
                     field,
-                    format!("column {} of storey {}: {problem}", own.place, own.floor),
+                    format!(
+                        "column {} of storey {}: {problem}",
+                        member.place, member.floor
+                    ),
                 );
                 return None;
             }

@@ -52,9 +52,12 @@ pub(super) fn read_in_plan(
     let count = storey_heights.len();
     let masses = |reader: &mut Reader<'_>| {
         let field = reader.get(view, "beam_mass");
-        let own =
+        let per_storey =
             field.and_then(|field| per_storey(reader, &field, Dimension::LineMass, Some(count)));
-        (own.unwrap_or_else(|| vec![0.0; count]), vec![0.0; count])
+        (
+            per_storey.unwrap_or_else(|| vec![0.0; count]),
+            vec![0.0; count],
+        )
     };
     let heights = storey_heights.to_vec();
     read_members(reader, view, Some(count), heights, masses, &IN_PLAN)
@@ -157,8 +160,10 @@ fn read_members(
         heights: &frame.storey_heights,
         widths: Widths::OfFrame(&frame.spans),
         column_rigidity: &|place| {
-            let own = |line| frame.column(place.storey - 1, line);
-            place.lines().map(|line| Some(own(line)?.flexural_rigidity))
+            let column = |line| frame.column(place.storey - 1, line);
+            place
+                .lines()
+                .map(|line| Some(column(line)?.flexural_rigidity))
         },
         has_joints: &has_joints,
     };
@@ -171,7 +176,7 @@ fn read_members(
         && !view.has("foundation")
         && frame
             .all_columns()
-            .all(|(_, own)| own.axial_rigidity.is_some());
+            .all(|(_, column)| column.axial_rigidity.is_some());
     let axial = flexible_members(reader, view, "axial", Section::Axial, shortens);
     frame.axial = Axial {
         columns_flexible: axial.0,

@@ -83,7 +83,7 @@ pub(super) fn read(
     };
     let depths = |grid: Option<&Grid>| {
         let rows = grid.into_iter().flatten();
-        let depth = |own: &Option<(Section, Option<f64>)>| own.and_then(|(_, depth)| depth);
+        let depth = |cell: &Option<(Section, Option<f64>)>| cell.and_then(|(_, depth)| depth);
         rows.map(|row| row.iter().map(depth).collect()).collect()
     };
     FrameMembers {
@@ -109,12 +109,13 @@ fn read_grid(
     span: &dyn Fn(usize) -> Option<Span>,
     walls: &Walls,
 ) -> Option<Grid> {
-    let own = &walls.sections[usize::from(member == Member::Beam)];
+    let wall_section = &walls.sections[usize::from(member == Member::Beam)];
     let layout = Layout::read(reader, view, member, storeys, across);
     // A stick has no beams.
-    if layout.is_none() && (walls.incomplete || !own.is_empty() || across == 0) {
+    if layout.is_none() && (walls.incomplete || !wall_section.is_empty() || across == 0) {
         let rows = (0..storeys.unwrap_or(1)).map(|storey| {
-            let places = (0..across).map(|place| Some((*own.get(&[storey, place])?, None)));
+            let places =
+                (0..across).map(|place| Some((*wall_section.get(&[storey, place])?, None)));
             places.collect::<Vec<_>>()
         });
         let grid: Grid = rows.collect();
@@ -128,7 +129,7 @@ fn read_grid(
     }
     let sections = read_sections(reader, view, member, layout.as_ref(), material);
     let layout = layout?;
-    if let Some(place) = layout.named_twice(own) {
+    if let Some(place) = layout.named_twice(wall_section) {
         let table = &layout.tables[layout.holds[place[0]][place[1]]?];
         taken(reader, &table.field, member, place);
         return None;
@@ -137,7 +138,7 @@ fn read_grid(
     for (storey, row) in layout.holds.iter().enumerate() {
         let mut row_of_sections = Vec::new();
         for (place, table) in row.iter().enumerate() {
-            if let Some(section) = own.get(&[storey, place]) {
+            if let Some(section) = wall_section.get(&[storey, place]) {
                 row_of_sections.push(Some((*section, None)));
                 continue;
             }
@@ -151,8 +152,8 @@ fn read_grid(
                 continue;
             };
             let exists = stands || layout.tables[table].names_across;
-            let own = sections[table].filter(|_| exists);
-            row_of_sections.push(own.map(|own| (own.at(span(place)), own.depth)));
+            let section = sections[table].filter(|_| exists);
+            row_of_sections.push(section.map(|section| (section.at(span(place)), section.depth)));
         }
         grid.push(row_of_sections);
     }
@@ -196,20 +197,20 @@ fn lacks_section(reader: &mut Reader<'_>, view: &View<'_>, member: Member, place
 
 /// The first section of every row, and what differs from it.
 fn compact(grid: &Grid) -> Sections {
-    let mut own = BTreeMap::new();
+    let mut exceptions = BTreeMap::new();
     let mut rows = Vec::new();
     for (storey, row) in grid.iter().enumerate() {
-        let row: Vec<Option<Section>> = row.iter().map(|own| Some(own.as_ref()?.0)).collect();
+        let row: Vec<Option<Section>> = row.iter().map(|row| Some(row.as_ref()?.0)).collect();
         let usual = row.iter().flatten().next().copied();
         for (place, section) in row.iter().enumerate() {
             // Without any, all are left out.
             if *section != usual || usual.is_none() {
-                own.insert([storey, place], *section);
+                exceptions.insert([storey, place], *section);
             }
         }
         rows.push(usual.unwrap_or(STAND_IN));
     }
-    (rows, own)
+    (rows, exceptions)
 }
 
 /// Rows without holes: where there is no member, that of another of its storey, which has no part.
@@ -217,7 +218,7 @@ pub(super) fn filled<T: Clone>(rows: Vec<Vec<Option<T>>>) -> Vec<Vec<T>> {
     let rows = rows.into_iter().map(|row| {
         let other = row.iter().flatten().next().cloned();
         row.into_iter()
-            .filter_map(|own| own.or_else(|| other.clone()))
+            .filter_map(|row| row.or_else(|| other.clone()))
             .collect()
     });
     rows.collect()

@@ -343,11 +343,11 @@ fn read_hinges(
     };
     let mut hinges = Vec::new();
     for floor in floors {
-        let own = Foot {
+        let foot = Foot {
             storey: heights[floor - lowest],
             ..*foot
         };
-        let hysteresis = read_hinge(reader, field, &own)?;
+        let hysteresis = read_hinge(reader, field, &foot)?;
         for at_head in [false, true] {
             if everywhere || !at_head {
                 hinges.push(WallHinge {
@@ -406,19 +406,19 @@ fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: &Foot) -> Option
     let given = read_spring(reader, field, KEYS, Some(curvature), Dimension::Moment)?;
     let (rule, initial) = (given.rule(), initial?);
     let corners = Side::BOTH.map(|side| {
-        let own = given.backbone().side(side);
+        let side = given.backbone().side(side);
         // The wall itself bends elastically over its whole height; the hinge adds what is beyond.
         let beyond = |slope: f64| slope / (1.0 - slope / curvature) / initial;
         match rule {
             HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
             HysteresisRule::Bilinear => {
-                Corners::bilinear(own.yielding.force, beyond(own.post_yield))
+                Corners::bilinear(side.yielding.force, beyond(side.post_yield))
             }
             _ => Corners {
-                cracking: own.cracking.force,
-                yielding: own.yielding.force,
-                post_cracking: beyond(own.post_cracking),
-                post_yield: beyond(own.post_yield),
+                cracking: side.cracking.force,
+                yielding: side.yielding.force,
+                post_cracking: beyond(side.post_cracking),
+                post_yield: beyond(side.post_yield),
             },
         }
     });
@@ -490,8 +490,8 @@ fn read_beams(
     let bay = places.map_or(1, |([first, _], _)| first);
     // Between the faces of the walls.
     let half = |line: usize| {
-        let own = walls.iter().flatten().filter(|own| own.line == line);
-        own.map(|own| 0.5 * own.length).fold(0.0, f64::max)
+        let walls = walls.iter().flatten().filter(|wall| wall.line == line);
+        walls.map(|wall| 0.5 * wall.length).fold(0.0, f64::max)
     };
     let span = bays.spans.get(bay - 1);
     let clear = span.map_or(1.0, |span| span - half(bay) - half(bay + 1));

@@ -432,12 +432,12 @@ pub(super) fn rayleigh(
     let mut sums = [[0.0; 3]; 2];
     let weighted: Vec<[f64; 3]> = entries
         .iter()
-        .map(|((row, column), own)| own.map(|value| value / (sizes[*row] * sizes[*column])))
+        .map(|((row, column), values)| values.map(|value| value / (sizes[*row] * sizes[*column])))
         .collect();
-    for own in &weighted {
+    for values in &weighted {
         for i in 0..2 {
             for j in 0..3 {
-                sums[i][j] += own[i] * own[j];
+                sums[i][j] += values[i] * values[j];
             }
         }
     }
@@ -458,7 +458,7 @@ pub(super) fn rayleigh(
     };
     let greatest = weighted
         .iter()
-        .fold(0.0_f64, |most, own| most.max(own[2].abs()));
+        .fold(0.0_f64, |most, value| most.max(value[2].abs()));
     let fits = weighted
         .iter()
         .all(|[m, k, c]| (c - alpha * m - beta * k).abs() <= REMAINDER * greatest);

@@ -30,11 +30,11 @@ impl Modes {
     fn building(self, rest: f64) -> Given {
         let mass = &self.mass;
         let entry = |i: usize, j: usize| {
-            let own = if i == j { rest * mass[i] } else { 0.0 };
+            let diagonal = if i == j { rest * mass[i] } else { 0.0 };
             let modes = self.shapes.iter().zip(&self.periods);
             let of_modes =
                 modes.map(|(shape, period)| (square(*period) - rest) * shape[i] * shape[j]);
-            own + mass[i] * mass[j] * of_modes.sum::<f64>()
+            diagonal + mass[i] * mass[j] * of_modes.sum::<f64>()
         };
         let floors = 0..mass.len();
         let row = |i: usize| floors.clone().map(|j| entry(i, j)).collect();
@@ -47,16 +47,16 @@ impl Modes {
     /// # Errors
     /// What is wrong with the flexibility, and what may be done about it.
     fn rest_of(&self, floor: usize, flexibility: f64) -> Result<f64, (String, &'static str)> {
-        let own = self.shapes.iter().map(|shape| shape[floor].powi(2));
-        let inertia = 1.0 / self.mass[floor] - own.clone().sum::<f64>();
+        let shapes = self.shapes.iter().map(|shape| shape[floor].powi(2));
+        let inertia = 1.0 / self.mass[floor] - shapes.clone().sum::<f64>();
         if inertia * self.mass[floor] < LEAST_LEFT {
             let problem =
                 "the modes leave out nothing of this floor, so that it gives way by them alone";
             return Err((problem.into(), "leave it out"));
         }
-        let by_modes: f64 = own
+        let by_modes: f64 = shapes
             .zip(&self.periods)
-            .map(|(own, period)| own / square(*period))
+            .map(|(shape, period)| shape / square(*period))
             .sum();
         if flexibility <= by_modes {
             return Err((
@@ -80,19 +80,22 @@ pub(super) fn soften_contacts(model: &mut Model, reader: &mut Reader<'_>, view: 
         .get(view, "building")
         .and_then(|field| field.entries());
     for (index, field) in buildings.unwrap_or_default().iter().enumerate() {
-        let Some(own) = reader.reopen(field, &[Section::Building, Section::Given]) else {
+        let Some(building_view) = reader.reopen(field, &[Section::Building, Section::Given]) else {
             continue;
         };
-        let Some(stated) = reader.get(&own, "contact_flexibility") else {
+        let Some(stated) = reader.get(&building_view, "contact_flexibility") else {
             continue;
         };
         let (Some(Structure::Given(_)), Some(flexibility)) = (
-            model.buildings.get(index).map(|own| &own.structure),
+            model
+                .buildings
+                .get(index)
+                .map(|building| &building.structure),
             reader.positive(&stated, Dimension::Flexibility),
         ) else {
             continue;
         };
-        let floor = match reader.get(&own, "contact_floor") {
+        let floor = match reader.get(&building_view, "contact_floor") {
             Some(field) => match reader.count(&field) {
                 Some(floor) if (1..=model.buildings[index].floors()).contains(&floor) => floor - 1,
                 Some(_) => {
@@ -105,7 +108,7 @@ pub(super) fn soften_contacts(model: &mut Model, reader: &mut Reader<'_>, view: 
             None => highest_struck(model, index),
         };
         // What was sound when the building was read is read again.
-        let Some(modes) = read_modes(reader, &own) else {
+        let Some(modes) = read_modes(reader, &building_view) else {
             continue;
         };
         match modes.rest_of(floor, flexibility) {
@@ -317,14 +320,14 @@ fn orthonormal(mass: &[f64], shapes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Strin
     };
     let mut found: Vec<Vec<f64>> = Vec::new();
     for (index, shape) in shapes.iter().enumerate() {
-        let mut own = shape.clone();
-        let size = product(&own, &own).sqrt();
+        let mut shape = shape.clone();
+        let size = product(&shape, &shape).sqrt();
         if size.is_nan() || size == 0.0 {
             return Err(format!("shape {} is zero", index + 1));
         }
-        own.iter_mut().for_each(|value| *value /= size);
+        shape.iter_mut().for_each(|value| *value /= size);
         for (other, known) in found.iter().enumerate() {
-            let shared = product(&own, known);
+            let shared = product(&shape, known);
             if shared.abs() > ORTHOGONAL {
                 return Err(format!(
                     "shapes {} and {} are not orthogonal with these masses (their product is {shared:.3}); check that shapes are of this direction, floors from the ground up, and that masses are those of the program",
@@ -332,13 +335,13 @@ fn orthonormal(mass: &[f64], shapes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Strin
                     index + 1
                 ));
             }
-            for (value, known) in own.iter_mut().zip(known) {
+            for (value, known) in shape.iter_mut().zip(known) {
                 *value -= shared * known;
             }
         }
-        let size = product(&own, &own).sqrt();
-        own.iter_mut().for_each(|value| *value /= size);
-        found.push(own);
+        let size = product(&shape, &shape).sqrt();
+        shape.iter_mut().for_each(|value| *value /= size);
+        found.push(shape);
     }
     Ok(found)
 }

@@ -139,8 +139,12 @@ pub(super) fn read_own(
     model: &Model,
     files: &Files,
 ) {
-    let buildings: Vec<String> = model.buildings.iter().map(|own| own.name.clone()).collect();
-    let walls: Vec<String> = model.walls.iter().map(|own| own.name.clone()).collect();
+    let buildings: Vec<String> = model
+        .buildings
+        .iter()
+        .map(|building| building.name.clone())
+        .collect();
+    let walls: Vec<String> = model.walls.iter().map(|wall| wall.name.clone()).collect();
     let entries = |reader: &mut Reader<'_>, key| {
         let field = reader.get(root, key);
         field.and_then(|field| field.entries()).unwrap_or_default()
@@ -148,7 +152,7 @@ pub(super) fn read_own(
     let of_buildings = entries(reader, "building");
     let of_walls = entries(reader, "wall");
     let has_motion = root.has("motion");
-    let mut own = Vec::with_capacity(buildings.len() + walls.len());
+    let mut grounds = Vec::with_capacity(buildings.len() + walls.len());
     for (field, name) in of_buildings.iter().zip(&buildings) {
         let mut ground = OwnGroundSpec {
             name: name.clone(),
@@ -165,11 +169,11 @@ pub(super) fn read_own(
                 }
             }
         }
-        own.push(ground);
+        grounds.push(ground);
     }
     for (field, name) in of_walls.iter().zip(&walls) {
         let view = reader.reopen(field, &[Section::Wall]);
-        own.push(OwnGroundSpec {
+        grounds.push(OwnGroundSpec {
             name: name.clone(),
             position: view.and_then(|view| position(reader, &view)),
             ..OwnGroundSpec::default()
@@ -179,7 +183,7 @@ pub(super) fn read_own(
     let wave_angle = spec.and_then(|spec| spec.wave_angle);
     if model.is_in_space() {
         if spec.is_some_and(|spec| spec.apparent_velocity.is_some() || spec.coherency.is_some()) {
-            place_in_plan(&mut own, model, wave_angle.unwrap_or(0.0));
+            place_in_plan(&mut grounds, model, wave_angle.unwrap_or(0.0));
         }
     } else if wave_angle.is_some()
         && let Some(field) = reader.get(root, "motion")
@@ -191,24 +195,24 @@ pub(super) fn read_own(
     let Some(motion) = motion else {
         if !has_motion {
             let spec = GroundsSpec {
-                own,
+                own: grounds,
                 ..GroundsSpec::default()
             };
             check_positions(reader, &spec, [&of_buildings, &of_walls]);
         }
         return;
     };
-    if own.iter().all(|own| {
-        own.position.is_none()
-            && own.arrival.is_none()
-            && own.motion.is_none()
-            && own.vertical.is_none()
+    if grounds.iter().all(|ground| {
+        ground.position.is_none()
+            && ground.arrival.is_none()
+            && ground.motion.is_none()
+            && ground.vertical.is_none()
     }) && motion.grounds.is_none()
     {
         return;
     }
     let mut spec = motion.grounds.take().unwrap_or_default();
-    spec.own = own;
+    spec.own = grounds;
     check_positions(reader, &spec, [&of_buildings, &of_walls]);
     let between = model.gaps.iter().map(|gap| gap.between);
     let between: Vec<_> = between
@@ -220,7 +224,7 @@ pub(super) fn read_own(
 
 /// Positions of buildings with a plan that have none: how far waves have travelled to the centre of the lowest floor, from the one
 /// that they reach first \[m\].
-fn place_in_plan(own: &mut [OwnGroundSpec], model: &Model, wave_angle: f64) {
+fn place_in_plan(specs: &mut [OwnGroundSpec], model: &Model, wave_angle: f64) {
     let (sin, cos) = libm::sincos(wave_angle);
     let passed = model.buildings.iter().map(|building| {
         let Structure::Tiers(tiers) = &building.structure else {
@@ -235,9 +239,9 @@ fn place_in_plan(own: &mut [OwnGroundSpec], model: &Model, wave_angle: f64) {
         .flatten()
         .copied()
         .fold(f64::INFINITY, f64::min);
-    for (own, passed) in own.iter_mut().zip(passed) {
-        if own.position.is_none() && own.arrival.is_none() {
-            own.position = passed.map(|passed| passed - first);
+    for (spec, passed) in specs.iter_mut().zip(passed) {
+        if spec.position.is_none() && spec.arrival.is_none() {
+            spec.position = passed.map(|passed| passed - first);
         }
     }
 }
@@ -292,7 +296,7 @@ fn check_positions(
 ) {
     let passing = spec.apparent_velocity.is_some();
     let uses = passing || spec.coherency.is_some();
-    for (index, (field, own)) in of_buildings
+    for (index, (field, ground)) in of_buildings
         .iter()
         .chain(of_walls)
         .zip(&spec.own)
@@ -305,7 +309,7 @@ fn check_positions(
         let Some(view) = reader.reopen(field, section) else {
             continue;
         };
-        match (own.position, reader.get(&view, "position")) {
+        match (ground.position, reader.get(&view, "position")) {
             (Some(_), Some(field)) if !uses => {
                 *reader.bad(&field, "has no use without apparent_velocity or coherency") =
                     Some("add apparent_velocity = \"600 m/s\" under [motion]".into());
@@ -316,7 +320,7 @@ fn check_positions(
                     format!("must not be negative, found {place} m: the wave would arrive before it begins"),
                 ) = Some("count positions from where the wave arrives first".into());
             }
-            (None, None) if uses && index < of_buildings.len() && own.arrival.is_none() => {
+            (None, None) if uses && index < of_buildings.len() && ground.arrival.is_none() => {
                 reader.missing(
                     &view,
                     "position",
@@ -326,7 +330,7 @@ fn check_positions(
             _ => {}
         }
         if spec.coherency.is_some()
-            && let Some(motion) = &own.motion
+            && let Some(motion) = &ground.motion
             && motion.source.is_some()
         {
             let path = format!("{}.motion", view.path);
@@ -350,23 +354,23 @@ fn place_walls(
     for (wall, field) in of_walls.iter().enumerate() {
         let index = buildings + wall;
         let faced = between.iter().filter_map(|pair| match *pair {
-            [Some(own), Some(other)] if own == index && other < buildings => Some(other),
-            [Some(other), Some(own)] if own == index && other < buildings => Some(other),
+            [Some(one), Some(other)] if one == index && other < buildings => Some(other),
+            [Some(other), Some(one)] if one == index && other < buildings => Some(other),
             _ => None,
         });
         let faced: Vec<usize> = faced.collect();
-        let (Some(first), Some(own)) = (faced.first(), spec.own.get(index)) else {
+        let (Some(first), Some(wall_ground)) = (faced.first(), spec.own.get(index)) else {
             continue;
         };
-        if own.position.is_some() {
+        if wall_ground.position.is_some() {
             continue;
         }
         let ground = |building: usize| {
-            let own = &spec.own[building];
+            let spec_own = &spec.own[building];
             (
-                &own.motion,
+                &spec_own.motion,
                 spec.arrival(building),
-                own.position.filter(|_| spec.coherency.is_some()),
+                spec_own.position.filter(|_| spec.coherency.is_some()),
             )
         };
         if let Some(other) = faced.iter().find(|other| ground(**other) != ground(*first)) {

@@ -382,15 +382,15 @@ pub(super) fn read_moments(
     let mut common = read_numbers(reader, view);
     if let Some(beside) = beside {
         let others = read_numbers(reader, beside);
-        for (own, other) in common.iter_mut().zip(others) {
-            *own = own.or(other);
+        for (common, other) in common.iter_mut().zip(others) {
+            *common = common.or(other);
         }
     }
     let subs = [Side::Positive, Side::Negative].map(|side| {
         let field = reader.get(view, name_of(side))?;
         let sub = reader.open(&field, &[Section::HingeSide])?;
-        let own = read_numbers(reader, &sub);
-        Some((sub, own))
+        let numbers = read_numbers(reader, &sub);
+        Some((sub, numbers))
     });
     let rule = rule?;
     if rule == HysteresisRule::Elastic {
@@ -399,9 +399,9 @@ pub(super) fn read_moments(
     let bilinear = rule == HysteresisRule::Bilinear;
     if bilinear {
         for key in ["cracking", "post_cracking"] {
-            let own = reader.get(view, key);
+            let stated = reader.get(view, key);
             let beside = beside.and_then(|beside| reader.get(beside, key));
-            if let Some(field) = own.or(beside) {
+            if let Some(field) = stated.or(beside) {
                 *reader.bad(&field, "has no place in a bilinear curve") =
                     Some(format!("remove {key}, or set rule = \"normal\""));
             }
@@ -416,7 +416,10 @@ pub(super) fn read_moments(
             if bilinear && key.contains("cracking") {
                 continue;
             }
-            match sub.and_then(|(_, own)| own[index]).or(common[index]) {
+            match sub
+                .and_then(|(_, numbers)| numbers[index])
+                .or(common[index])
+            {
                 Some(Some(value)) => values[index] = value,
                 Some(None) => complete = false,
                 None => {
@@ -463,9 +466,9 @@ pub(super) fn note(reader: &mut Reader<'_>, field: &Field<'_>, faults: Vec<Sprin
             let field = reader.get(&view, name_of(side))?;
             reader.reopen(&field, &[Section::HingeSide])
         });
-        let own = key.and_then(|key| sub.as_ref().and_then(|sub| reader.get(sub, key)));
-        let own = own.or_else(|| key.and_then(|key| reader.get(&view, key)));
-        let place = own.as_ref().unwrap_or(field);
+        let stated = key.and_then(|key| sub.as_ref().and_then(|sub| reader.get(sub, key)));
+        let stated = stated.or_else(|| key.and_then(|key| reader.get(&view, key)));
+        let place = stated.as_ref().unwrap_or(field);
         if !said.contains(&(place.path.clone(), fault.problem.clone())) {
             said.push((place.path.clone(), fault.problem.clone()));
             reader.bad(place, fault.problem);
@@ -799,8 +802,10 @@ pub(super) fn read_in_plan(
             *found = None;
             continue;
         }
-        let own = reader.open(&axis, &[Section::StoreyHingesOfAxis]);
-        *found = own.and_then(|own| storey_springs(reader, &axis, rule, &[&own, &view], stiffness));
+        let axis_view = reader.open(&axis, &[Section::StoreyHingesOfAxis]);
+        *found = axis_view.and_then(|axis_view| {
+            storey_springs(reader, &axis, rule, &[&axis_view, &view], stiffness)
+        });
     }
     let [x, y] = found;
     Some([x?, y?])

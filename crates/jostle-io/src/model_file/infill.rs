@@ -127,7 +127,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
                     let problem = faults
                         .into_iter()
                         .next()
-                        .map_or_else(String::new, |own| own.problem);
+                        .map_or_else(String::new, |fault| fault.problem);
                     *reader.bad(entry, format!("gives no curve that rises to the strength: {problem}")) = Some(
                         "the first slope must be greater than the secant of the strut: give a narrower strut or a greater shear_modulus".into(),
                     );
@@ -140,7 +140,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     }
     let size = |place: DiagonalPlace| [bays.width(place), bays.heights[place.storey - 1]];
     let struts = struts.into_iter();
-    let struts = struts.flat_map(|own| parallel.of_panel(own, size(own.place)));
+    let struts = struts.flat_map(|strut| parallel.of_panel(strut, size(strut.place)));
     let struts = struts.collect();
     (reader.count_faults() == noted).then_some(struts)
 }
@@ -149,9 +149,9 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
 fn by_hinge(reader: &mut Reader<'_>, field: &Field<'_>, stiffness: f64) -> Option<Hysteresis> {
     // A fault of one is that of all.
     let (sections, initial) = (&[Section::LinkHinge], Some(stiffness));
-    let own = read_spring(reader, field, sections, initial, Dimension::Force)?;
-    match own.in_compression() {
-        Ok(own) => Some(own),
+    let spring = read_spring(reader, field, sections, initial, Dimension::Force)?;
+    match spring.in_compression() {
+        Ok(compression) => Some(compression),
         Err(fault) => {
             *reader.bad(field, fault.problem) = Some(
                 "set rule = \"pinched\" with pinching, or leave hinge out: struts then stay elastic"

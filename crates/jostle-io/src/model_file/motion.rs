@@ -67,11 +67,14 @@ pub(crate) fn read_in(
     };
     let bearing = bearing(reader, &view, files);
     let grounds = grounds::read_common(reader, &view, files);
-    let across = bearing.as_ref().and_then(|own| own.across.as_ref());
-    let vertical = grounds.as_ref().and_then(|own| own.vertical.as_ref());
+    let across = bearing.as_ref().and_then(|bearing| bearing.across.as_ref());
+    let vertical = grounds.as_ref().and_then(|ground| ground.vertical.as_ref());
     let components = [
-        ("across", across.map(|own| &own.source)),
-        ("vertical", vertical.and_then(|own| own.source.as_ref())),
+        ("across", across.map(|spec| &spec.source)),
+        (
+            "vertical",
+            vertical.and_then(|vertical| vertical.source.as_ref()),
+        ),
     ];
     let records = source.as_ref().map_or(1, MotionSource::count);
     for (key, component) in components {
@@ -158,16 +161,16 @@ fn bearing(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<Bo
             ..MotionSpec::record("")
         }),
         false => {
-            let own = read(reader, &field, files)?;
-            if own.bearing.is_some() {
+            let spec = read(reader, &field, files)?;
+            if spec.bearing.is_some() {
                 *reader.bad(&field, "has an angle or a motion across of its own") =
                     Some("give them under [motion] only".into());
             }
-            if own.grounds.is_some() {
+            if spec.grounds.is_some() {
                 *reader.bad(&field, "says how grounds differ") =
                     Some("say it under [motion] only".into());
             }
-            Some(own)
+            Some(spec)
         }
     });
     if angle.is_none() && across.is_none() {
@@ -200,10 +203,10 @@ pub(super) fn refuse_several(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     key: &'static str,
-    own: Option<&OwnMotionSpec>,
+    spec: Option<&OwnMotionSpec>,
 ) {
-    let count = own
-        .and_then(|own| own.source.as_ref())
+    let count = spec
+        .and_then(|spec| spec.source.as_ref())
         .map_or(1, MotionSource::count);
     if count > 1
         && let Some(field) = reader.get(view, key)

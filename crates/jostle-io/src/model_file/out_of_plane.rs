@@ -96,10 +96,11 @@ fn strength(
                 None => {
                     // That of the strut holds here as well.
                     let table = reader.get(infill, "strength");
-                    let own =
+                    let strength_view =
                         table.and_then(|field| reader.reopen(&field, &[Section::InfillStrength]));
-                    let own = own.and_then(|own| reader.get(&own, "compression"));
-                    let known = own.and_then(|field| {
+                    let stated = strength_view
+                        .and_then(|strength_view| reader.get(&strength_view, "compression"));
+                    let known = stated.and_then(|field| {
                         reader.quietly(|reader| reader.positive(&field, Dimension::Modulus))
                     });
                     if known.is_none() {

@@ -41,14 +41,14 @@ impl PanelStruts {
             drift_per_shortening: libm::hypot(width, height) / (width * height),
         });
         let strut = |strut: StrutLine, share: f64, offsets: [f64; 2]| {
-            let mut own = whole;
-            own.place.strut = strut;
-            own.stiffness *= share;
-            own.hysteresis = own.hysteresis.map(|law| law.of_share(share));
+            let mut diagonal = whole;
+            diagonal.place.strut = strut;
+            diagonal.stiffness *= share;
+            diagonal.hysteresis = diagonal.hysteresis.map(|law| law.of_share(share));
             Diagonal {
                 offsets,
                 damage,
-                ..own
+                ..diagonal
             }
         };
         let off = self.offset;
@@ -124,7 +124,7 @@ fn damage_drifts(reader: &mut Reader<'_>, view: &View<'_>) -> Option<[f64; 4]> {
         found.push(reader.positive(entry, Dimension::Dimensionless)?);
     }
     let drifts: Option<[f64; 4]> = found.try_into().ok();
-    let drifts = drifts.filter(|own| own.windows(2).all(|pair| pair[0] < pair[1]));
+    let drifts = drifts.filter(|drift| drift.windows(2).all(|pair| pair[0] < pair[1]));
     if drifts.is_none() {
         *reader.bad(&field, "must be four drifts that rise") =
             Some("write damage_drifts = [0.0018, 0.0046, 0.0105, 0.0188]".into());

@@ -42,7 +42,7 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
         [false, false]
             if buildings
                 .iter()
-                .any(|own| matches!(own.structure, Structure::Tiers(_))) =>
+                .any(|building| matches!(building.structure, Structure::Tiers(_))) =>
         {
             format!(
                 "Columns of buildings with a plan cannot be hit between floors yet: raise level_tolerance if slabs overlap, or {listed} to say that no others can"

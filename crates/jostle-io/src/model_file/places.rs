@@ -67,12 +67,12 @@ impl<'n> Layout<'n> {
         let mut holds = vec![vec![(!is_list && !names_places).then_some(0); across]; rows];
         let mut tables = Vec::new();
         for (index, field) in entries.into_iter().enumerate() {
-            let own = reader.reopen(&field, sections(member));
-            let place = own.map(|own| {
-                let omits = omits(reader, &own, &field);
-                let names_across = own.has(across_key);
+            let member_view = reader.reopen(&field, sections(member));
+            let place = member_view.map(|member_view| {
+                let omits = omits(reader, &member_view, &field);
+                let names_across = member_view.has(across_key);
                 let ranges = [(up_key, rows), (across_key, across)]
-                    .map(|(key, most)| range(reader, &own, key, most));
+                    .map(|(key, most)| range(reader, &member_view, key, most));
                 (omits, names_across, ranges)
             });
             let (omits, names_across, ranges) = place.unwrap_or((false, false, [None; 2]));
@@ -133,13 +133,13 @@ pub(super) fn is_by_place(reader: &mut Reader<'_>, view: &View<'_>, key: &'stati
 }
 
 /// Whether a table says that there is nothing at its places; a section beside it is a fault.
-fn omits(reader: &mut Reader<'_>, own: &View<'_>, table: &Field<'_>) -> bool {
-    if !read_omit(reader, own) {
+fn omits(reader: &mut Reader<'_>, view: &View<'_>, table: &Field<'_>) -> bool {
+    if !read_omit(reader, view) {
         return false;
     }
-    let other = keys_of(own.sections())
+    let other = keys_of(view.sections())
         .map(|key| key.name)
-        .find(|key| !PLACE_KEYS.contains(key) && own.has(key));
+        .find(|key| !PLACE_KEYS.contains(key) && view.has(key));
     if let Some(key) = other {
         *reader.bad(table, format!("has both omit and {key}")) = Some(format!(
             "leave out {key} where there is nothing, or omit where there is a section"
@@ -149,20 +149,20 @@ fn omits(reader: &mut Reader<'_>, own: &View<'_>, table: &Field<'_>) -> bool {
 }
 
 /// The flag `omit` of a table.
-pub(super) fn read_omit(reader: &mut Reader<'_>, own: &View<'_>) -> bool {
+pub(super) fn read_omit(reader: &mut Reader<'_>, view: &View<'_>) -> bool {
     reader
-        .get(own, "omit")
+        .get(view, "omit")
         .is_some_and(|field| reader.flag(&field).unwrap_or(false))
 }
 
 /// The first and the last that a key of a table names, counted from 1; all without it, `None` after a fault.
 pub(super) fn range(
     reader: &mut Reader<'_>,
-    own: &View<'_>,
+    view: &View<'_>,
     key: &'static str,
     most: usize,
 ) -> Option<[usize; 2]> {
-    match reader.get(own, key) {
+    match reader.get(view, key) {
         Some(field) => read_range(reader, &field, most),
         None => Some([1, most]),
     }
@@ -205,7 +205,10 @@ pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: 
         let key = format!(".{}[", keys(member)[0]);
         let (owner, rest) = path.split_once(&key)?;
         let (storey, rest) = rest.split_once(']')?;
-        let (line, rest) = match rest.strip_prefix('[').and_then(|own| own.split_once(']')) {
+        let (line, rest) = match rest
+            .strip_prefix('[')
+            .and_then(|strip_prefix| strip_prefix.split_once(']'))
+        {
             Some((line, rest)) => (Some(line.parse::<usize>().ok()?), rest),
             None => (None, rest),
         };
@@ -222,11 +225,11 @@ pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: 
     let building = numbers
         .first()
         .and_then(|index| model.buildings.get(*index));
-    let frame = match building.map(|own| &own.structure) {
+    let frame = match building.map(|building| &building.structure) {
         Some(Structure::Frame(frame)) => Some(frame),
         Some(Structure::Tiers(tiers)) => {
-            let own = numbers.get(1).and_then(|index| tiers.frames.get(*index));
-            own.map(|own| &own.frame)
+            let frame = numbers.get(1).and_then(|index| tiers.frames.get(*index));
+            frame.map(|frame| &frame.frame)
         }
         _ => None,
     };
@@ -249,7 +252,7 @@ pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: 
     let is_list = layout
         .tables
         .iter()
-        .any(|own| own.field.path.ends_with(']'));
+        .any(|table| table.field.path.ends_with(']'));
     let entry = match table {
         Some(table) if is_list => format!("{}[{table}]", keys(member)[0]),
         _ => keys(member)[0].to_owned(),

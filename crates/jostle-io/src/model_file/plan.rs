@@ -105,8 +105,8 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
             let gyration = Some(area.gyration()).filter(|size| size.is_finite() && *size > 0.0);
             let centroid = Some(area.centroid).filter(|at| at.iter().all(|x| x.is_finite()));
             let mass = masses.get(floor).copied().unwrap_or(1.0);
-            let own = centre.as_ref().and_then(|list| list.get(floor).copied());
-            let centre = own.or(centroid).unwrap_or_default();
+            let stated = centre.as_ref().and_then(|list| list.get(floor).copied());
+            let centre = stated.or(centroid).unwrap_or_default();
             let polar = polar.as_ref().and_then(|list| list.get(floor).copied());
             Tier {
                 mass,
@@ -330,10 +330,10 @@ fn of_stiffness(
             let x = x.unwrap_or(1.0);
             let y = y.unwrap_or(x);
             let even = || TierStorey::torsion_of_even([x, y], &PlanArea::new(plan));
-            let own = eccentricity
+            let offset = eccentricity
                 .as_ref()
                 .and_then(|list| list.get(storey).copied());
-            let [ex, ey] = own.unwrap_or_default();
+            let [ex, ey] = offset.unwrap_or_default();
             TierStorey {
                 stiffness: [x, y, torsion.unwrap_or_else(even)],
                 centre: [floor.centre[0] + ex, floor.centre[1] + ey],
@@ -373,23 +373,30 @@ fn of_storeys(
     field: &Field<'_>,
     storeys: &mut [TierStorey],
 ) -> Vec<PlanSpring> {
-    let stiffness: [Vec<f64>; 2] =
-        [0, 1].map(|axis: usize| storeys.iter().map(|own| own.stiffness[axis]).collect());
-    let Some(read) = hinges::read_in_plan(reader, field, stiffness.each_ref().map(|own| &own[..]))
-    else {
+    let stiffness: [Vec<f64>; 2] = [0, 1].map(|axis: usize| {
+        storeys
+            .iter()
+            .map(|storey| storey.stiffness[axis])
+            .collect()
+    });
+    let Some(read) = hinges::read_in_plan(
+        reader,
+        field,
+        stiffness.each_ref().map(|stiffness| &stiffness[..]),
+    ) else {
         return Vec::new();
     };
     let mut yielding = Vec::new();
-    for (storey, own) in storeys.iter_mut().enumerate() {
+    for (storey, tier_storey) in storeys.iter_mut().enumerate() {
         for (axis, springs) in PlanAxis::BOTH.into_iter().zip(&read) {
             let Some(&hysteresis) = springs.get(storey) else {
                 continue;
             };
-            own.stiffness[axis.index()] = 0.0;
+            tier_storey.stiffness[axis.index()] = 0.0;
             yielding.push(PlanSpring {
                 element: None,
                 storey,
-                at: own.centre,
+                at: tier_storey.centre,
                 axis,
                 hysteresis,
             });
@@ -493,7 +500,11 @@ fn yielding_of_element(
     let field = reader.get(view, "hinges");
     let stiffness = stiffness.map(|value| vec![value; storeys]);
     let read = field.and_then(|field| {
-        hinges::read_in_plan(reader, &field, stiffness.each_ref().map(|own| &own[..]))
+        hinges::read_in_plan(
+            reader,
+            &field,
+            stiffness.each_ref().map(|stiffness| &stiffness[..]),
+        )
     });
     read.unwrap_or_default()
 }

@@ -125,7 +125,7 @@ fn read(
     let numbered = places.into_iter().enumerate();
     numbered
         .map(|(number, at)| {
-            let own = PlanFrame {
+            let frame = PlanFrame {
                 name: match single {
                     true => name.clone(),
                     false => format!("{name}.{}", number + 1),
@@ -137,7 +137,7 @@ fn read(
                 hinges: hinges.clone(),
                 frame: frame.clone(),
             };
-            (own, reinforced.clone())
+            (frame, reinforced.clone())
         })
         .collect()
 }

@@ -338,19 +338,19 @@ pub(super) fn members_in_plan(
     };
     let load = |name: &str| carried.get(name).copied().unwrap_or(0.0);
     let mut members: Vec<ReinforcedMember> = Vec::new();
-    for (frame, own) in tiers.frames.iter().zip(frames) {
+    for (frame, reinforcement) in tiers.frames.iter().zip(frames) {
         let name = format!("{}.", frame.name);
         let load = |name: &str, _: FramePlace| load(name);
-        members.extend(of_frame(index, &name, &frame.frame, own, load));
+        members.extend(of_frame(index, &name, &frame.frame, reinforcement, load));
     }
     if let Some(frame) = &tiers.space_frame {
         let places = frame.members.iter();
-        let laid = places.filter_map(|own| Some((own, reinforced.members.get(&own.place)?)));
-        members.extend(laid.map(|(own, read)| {
-            let name = own.place.to_string();
+        let laid = places.filter_map(|place| Some((place, reinforced.members.get(&place.place)?)));
+        members.extend(laid.map(|(member, read)| {
+            let name = member.place.to_string();
             let compression = load(&name);
             let heights = &tiers.storey_heights;
-            in_space(index, name, frame, (own, read), heights, compression)
+            in_space(index, name, frame, (member, read), heights, compression)
         }));
     }
     Ok(members)
@@ -361,11 +361,11 @@ fn in_space(
     building: usize,
     name: String,
     frame: &SpaceFrame,
-    (own, read): (&SpaceMember, &ReadSection),
+    (member, read): (&SpaceMember, &ReadSection),
     heights: &[f64],
     compression: f64,
 ) -> ReinforcedMember {
-    let (place, storey) = (own.place, own.place.storey());
+    let (place, storey) = (member.place, member.place.storey());
     let length = frame.length(place, heights);
     let is_column = matches!(place, SpacePlace::Column { .. });
     let meets = |at: usize, crossing: [usize; 2], other: SpacePlace| {
@@ -410,7 +410,7 @@ fn in_space(
         section: read.section.clone(),
         compression: if is_column { compression } else { 0.0 },
         length,
-        rigidity: own.section.flexural_rigidity[0],
+        rigidity: member.section.flexural_rigidity[0],
         clear_length: clear_along(along),
         clear_length_across: is_column.then(|| clear_along(PlanAxis::Y)),
         level: read.level,
@@ -448,9 +448,9 @@ fn of_frame(
         left.max(right)
     };
     let mut members = Vec::new();
-    let columns = frame.all_columns().map(|own| (Member::Column, own));
-    let beams = frame.all_beams().map(|own| (Member::Beam, own));
-    for (member, ([storey, place], own)) in columns.chain(beams) {
+    let columns = frame.all_columns().map(|column| (Member::Column, column));
+    let beams = frame.all_beams().map(|beam| (Member::Beam, beam));
+    for (member, ([storey, place], section)) in columns.chain(beams) {
         let list = match member {
             Member::Column => &reinforced.columns,
             Member::Beam => &reinforced.beams,
@@ -488,7 +488,7 @@ fn of_frame(
             section: read.section.clone(),
             compression,
             length,
-            rigidity: own.flexural_rigidity,
+            rigidity: section.flexural_rigidity,
             clear_length: clear(length, 0.5 * depths),
             clear_length_across: None,
             level: read.level,

@@ -23,9 +23,9 @@ pub(super) fn read(
     };
     let [columns, beams] = depths;
     let deepest = |grid: &[Vec<Option<f64>>], places: [Option<FramePlace>; 2]| {
-        let own = places.into_iter().flatten();
-        let own = own.filter_map(|[row, place]| *grid.get(row)?.get(place)?);
-        own.fold(0.0, f64::max)
+        let places = places.into_iter().flatten();
+        let grid = places.filter_map(|[row, place]| *grid.get(row)?.get(place)?);
+        grid.fold(0.0, f64::max)
     };
     let zone = |[floor, line]: FramePlace| {
         let before = line.checked_sub(1).map(|bay| [floor, bay]);
@@ -55,11 +55,11 @@ pub(super) fn read_in_space(
     };
     // Greatest sizes along x and across of columns, and depths of beams, at every joint.
     let mut sizes: BTreeMap<[usize; 3], [f64; 3]> = BTreeMap::new();
-    for own in &frame.members {
-        let level = own.place.storey();
-        let is_column = matches!(own.place, SpacePlace::Column { .. });
+    for member in &frame.members {
+        let level = member.place.storey();
+        let is_column = matches!(member.place, SpacePlace::Column { .. });
         let below = level.checked_sub(1).filter(|_| is_column);
-        for (end, [x, y]) in own.place.crossings().into_iter().enumerate() {
+        for (end, [x, y]) in member.place.crossings().into_iter().enumerate() {
             let floor = match (is_column, end) {
                 (true, 0) => below,
                 _ => Some(level),
@@ -68,7 +68,7 @@ pub(super) fn read_in_space(
                 continue;
             };
             let size = sizes.entry([floor, x, y]).or_default();
-            let [first, second] = own.section.size;
+            let [first, second] = member.section.size;
             let met = match is_column {
                 true => [first, second, 0.0],
                 false => [0.0, 0.0, second],

@@ -69,7 +69,11 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>) -> Option<RotationLimit> {
     for (key, level) in LEVELS {
         if let Some(field) = reader.get(&table, key) {
             let limit = reader.positive(&field, Dimension::Dimensionless)?;
-            if let Some(before) = limits.values().next_back().filter(|own| **own >= limit) {
+            if let Some(before) = limits
+                .values()
+                .next_back()
+                .filter(|next_back| **next_back >= limit)
+            {
                 *reader.bad(&field, format!("must exceed the limit of the level before it, {before} rad; found {limit} rad")) =
                     Some("levels rise: io < ls < cp".into());
                 return None;
@@ -97,7 +101,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>) -> Option<RotationLimit> {
 /// A number, or the first and the last.
 fn from_to(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<[usize; 2]> {
     let Some(entries) = field.entries() else {
-        return reader.count(field).map(|own| [own; 2]);
+        return reader.count(field).map(|whole_number| [whole_number; 2]);
     };
     let [first, last] = &entries[..] else {
         *reader.bad(field, "expected a number, or the first and the last") =

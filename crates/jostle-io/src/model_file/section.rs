@@ -248,15 +248,15 @@ fn of_own_concrete(reader: &mut Reader<'_>, view: &View<'_>, material: Material)
     };
     // Faults are noted where the reinforcement is read.
     let grade = reader.quietly(|reader| reader.concrete(&field, SECTION_CONCRETES));
-    let own = grade.and_then(|grade| grade.at(StrengthLevel::Characteristic));
-    let modulus = own.map(|concrete| concrete.modulus);
+    let characteristic = grade.and_then(|grade| grade.at(StrengthLevel::Characteristic));
+    let modulus = characteristic.map(|concrete| concrete.modulus);
     Material {
         modulus: material
             .modulus
             .filter(|_| material.modulus_is_stated)
             .or(modulus)
             .or(material.modulus),
-        modulus_is_bad: material.modulus_is_bad || own.is_none(),
+        modulus_is_bad: material.modulus_is_bad || characteristic.is_none(),
         ..material
     }
 }

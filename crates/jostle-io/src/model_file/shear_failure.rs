@@ -242,7 +242,7 @@ fn springs(
     let mut rows = Vec::with_capacity(losses.len());
     for (storey, row) in losses.iter().enumerate() {
         let length = frame.storey_heights[storey];
-        let mut own = Vec::with_capacity(row.len());
+        let mut springs = Vec::with_capacity(row.len());
         for (line, loss) in row.iter().enumerate() {
             // Where there is no column, its spring has no part.
             let column = frame.column(storey, line).or(frame.columns.get(storey))?;
@@ -272,7 +272,7 @@ fn springs(
                 residual: residual * loss.strength,
             };
             match Hysteresis::failing(RIGID * stiffness, loss.strength, falling) {
-                Ok(spring) => own.push(ShearSpring {
+                Ok(spring) => springs.push(ShearSpring {
                     spring,
                     ends,
                     by_ductility: loss.by_ductility.clone(),
@@ -286,7 +286,7 @@ fn springs(
                 }
             }
         }
-        rows.push(own);
+        rows.push(springs);
     }
     Some(rows)
 }
@@ -295,11 +295,11 @@ fn springs(
 pub(super) fn add_heads(model: &mut Model, reader: &mut Reader<'_>, view: &View<'_>) {
     let stated = |reader: &mut Reader<'_>, index: usize| {
         let buildings = reader.get(view, "building")?;
-        let own = buildings.entries()?.into_iter().nth(index)?;
-        let own = reader.reopen(&own, &[Section::Building, Section::Frame])?;
-        let own = reader.get(&own, "shear_failure")?;
-        let own = reader.reopen(&own, &[Section::ShearFailure])?;
-        reader.get(&own, "ends")
+        let entry = buildings.entries()?.into_iter().nth(index)?;
+        let building_view = reader.reopen(&entry, &[Section::Building, Section::Frame])?;
+        let failure = reader.get(&building_view, "shear_failure")?;
+        let failure_view = reader.reopen(&failure, &[Section::ShearFailure])?;
+        reader.get(&failure_view, "ends")
     };
     for index in 0..model.buildings.len() {
         let fails = |hinges: &Hinges| matches!(hinges, Hinges::Frame(own) if !own.shear.is_empty());

@@ -129,9 +129,9 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Soil> {
         Some(field) => coupling(reader, &field),
         None => Some(SoilCoupling::None),
     };
-    let own = ["shear_wave_velocity", "density", "poisson_ratio"];
+    let keys = ["shear_wave_velocity", "density", "poisson_ratio"];
     let matrices = matches!(coupling, Some(SoilCoupling::Given { .. }));
-    if matrices && !own.iter().any(|key| view.has(key)) {
+    if matrices && !keys.iter().any(|key| view.has(key)) {
         if let Some(field) = reader.get(&view, "damping") {
             *reader.bad(&field, "has no effect where coupling gives matrices") =
                 Some("put it into the matrix damping; leave it out here".into());
@@ -164,7 +164,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Soil> {
     );
     let damping = given(reader, &view, "damping", Dimension::Dimensionless);
     if matrices {
-        for key in own {
+        for key in keys {
             if let Some(field) = reader.get(&view, key) {
                 *reader.bad(&field, "has no effect where coupling gives matrices") = Some(
                     "leave out shear_wave_velocity, density and poisson_ratio, or coupling".into(),

@@ -152,9 +152,9 @@ fn law(
         None => 0.0,
     };
     let hinge = reader.get(view, "hinge");
-    let one_sided = |own: Hysteresis| match gapping {
-        true => own.in_compression(),
-        false => Ok(own),
+    let one_sided = |hysteresis: Hysteresis| match gapping {
+        true => hysteresis.in_compression(),
+        false => Ok(hysteresis),
     };
     let rule = match gapping {
         true => HysteresisRule::Pinched(LEAVES_A_GAP),
@@ -168,14 +168,15 @@ fn law(
         }
         (Some((strength, field)), None) => {
             let corners = Corners::bilinear(strength, post_yield);
-            let own = Backbone::from_forces(stiffness?, corners, corners)
+            let hysteresis = Backbone::from_forces(stiffness?, corners, corners)
                 .and_then(|backbone| Hysteresis::new(rule, backbone));
-            let own = own.map_err(|faults| faults.into_iter().next());
-            let own = own.and_then(|own| one_sided(own).map_err(Some));
-            match own {
-                Ok(own) => Some(Some(own)),
+            let hysteresis = hysteresis.map_err(|faults| faults.into_iter().next());
+            let sided = hysteresis.and_then(|sided| one_sided(sided).map_err(Some));
+            match sided {
+                Ok(sided) => Some(Some(sided)),
                 Err(fault) => {
-                    let problem = fault.map_or_else(String::new, |own: SpringFault| own.problem);
+                    let problem =
+                        fault.map_or_else(String::new, |fault: SpringFault| fault.problem);
                     reader.bad(&field, problem);
                     None
                 }
@@ -183,9 +184,9 @@ fn law(
         }
         (None, Some(field)) => {
             let sections = &[Section::LinkHinge];
-            let own = read_spring(reader, &field, sections, stiffness, Dimension::Force)?;
-            match one_sided(own) {
-                Ok(own) => Some(Some(own)),
+            let spring = read_spring(reader, &field, sections, stiffness, Dimension::Force)?;
+            match one_sided(spring) {
+                Ok(sided) => Some(Some(sided)),
                 Err(fault) => {
                     *reader.bad(&field, fault.problem) =
                         Some("set rule = \"pinched\" with pinching, or leave gapping out".into());

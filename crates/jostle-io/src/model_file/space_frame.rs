@@ -195,7 +195,7 @@ pub(super) fn read(
             ],
             shears: if is_column { shears.0 } else { shears.1 },
         };
-        let mut own = read_sort(reader, view, sort, &grid, plans, material, hinges.as_ref());
+        let mut sort = read_sort(reader, view, sort, &grid, plans, material, hinges.as_ref());
         if is_column {
             walls = space_walls::read_all(
                 reader,
@@ -204,18 +204,18 @@ pub(super) fn read(
                 plans,
                 material,
                 hinges.as_ref(),
-                &mut own,
+                &mut sort,
             );
         }
-        for (place, own) in own {
-            let mut section = own.section;
+        for (place, member) in sort {
+            let mut section = member.section;
             if is_column && !stretches {
                 section.axial_rigidity = None;
             }
             members.push(SpaceMember::elastic(place, section));
-            own_moments.push(own.moments);
-            slabs.extend(own.slab.map(|own| (place, own)));
-            sections.extend(own.reinforced.map(|own| (place, own)));
+            own_moments.push(member.moments);
+            slabs.extend(member.slab.map(|slab| (place, slab)));
+            sections.extend(member.reinforced.map(|section| (place, section)));
         }
     }
     let [lines_x, lines_y] = grid.lines.clone();
@@ -250,7 +250,7 @@ pub(super) fn read(
 
 /// Lets slabs bend with beams: a beam that none continues on its line is an end span.
 fn add_slabs(slabs: &BTreeMap<SpacePlace, OnSlab>, frame: &mut SpaceFrame) {
-    let beams = frame.members.iter().map(|own| own.place);
+    let beams = frame.members.iter().map(|member| member.place);
     let ends: BTreeSet<SpacePlace> = beams.collect();
     let neighbours = |place: SpacePlace| match place {
         SpacePlace::Column { .. } => [None; 2],
@@ -274,18 +274,18 @@ fn add_slabs(slabs: &BTreeMap<SpacePlace, OnSlab>, frame: &mut SpaceFrame) {
             length: frame.length(place, &[]),
             outer_ends: 2 - goes_on,
         };
-        let own = &mut frame.members[index].section;
+        let section = &mut frame.members[index].section;
         let tee = slab.with(
             CrossSection {
-                flexural_rigidity: own.flexural_rigidity[0],
-                axial_rigidity: own.axial_rigidity,
+                flexural_rigidity: section.flexural_rigidity[0],
+                axial_rigidity: section.axial_rigidity,
                 shear_rigidity: None,
                 line_mass: 0.0,
             },
             span,
         );
-        own.flexural_rigidity[0] = tee.flexural_rigidity;
-        own.axial_rigidity = tee.axial_rigidity;
+        section.flexural_rigidity[0] = tee.flexural_rigidity;
+        section.axial_rigidity = tee.axial_rigidity;
     }
 }
 
@@ -306,8 +306,8 @@ fn add_diagonals(
             let storey = place.storey - 1;
             let column = SpacePlace::Column { line, storey };
             let mut members = frame.members.iter();
-            let own = members.find(|own| own.place == column)?;
-            Some(own.section.flexural_rigidity[axis])
+            let member = members.find(|member| member.place == column)?;
+            Some(member.section.flexural_rigidity[axis])
         })
     };
     let has_joints = |place: DiagonalPlace| {
@@ -347,7 +347,7 @@ fn add_fibres(
     let (Some(asked), Some(field)) = (&hinges.fibres, reader.get(view, "hinges")) else {
         return;
     };
-    let places = frame.members.iter().map(|own| own.place);
+    let places = frame.members.iter().map(|member| member.place);
     let columns = places.filter(|place| matches!(place, SpacePlace::Column { .. }));
     let columns: Vec<SpacePlace> = columns.collect();
     if columns.iter().any(|place| !sections.contains_key(place)) {
@@ -357,12 +357,12 @@ fn add_fibres(
     }
     for place in columns
         .into_iter()
-        .filter(|own| asked.stand_in(own.storey()))
+        .filter(|column| asked.stand_in(column.storey()))
     {
         let height = frame.clear_length(place, storey_heights);
         match asked.of_column(&sections[&place].section, height, true) {
-            Ok(own) => {
-                frame.fibres.insert(place, own);
+            Ok(column) => {
+                frame.fibres.insert(place, column);
             }
             Err(problem) => {
                 reader.bad(&field, format!("{place}: {problem}"));
@@ -390,11 +390,11 @@ fn add_hinges(
         *reader.bad(&field, "has no moments") = Some("add column or beam = { yield = \"400 kN.m\", post_yield = 0.02 }, or hinge to some columns or beams".into());
         return;
     }
-    for (index, own) in own_moments.iter().enumerate() {
+    for (index, own_moment) in own_moments.iter().enumerate() {
         let SpaceMember { place, section, .. } = frame.members[index];
         let is_column = matches!(place, SpacePlace::Column { .. });
         let usual = || hinges.usual(is_column, place.storey());
-        let Some(moments) = own.as_ref().or_else(usual) else {
+        let Some(moments) = own_moment.as_ref().or_else(usual) else {
             continue;
         };
         let length = frame.clear_length(place, storey_heights);
@@ -456,16 +456,16 @@ fn read_sort<'n>(
             Sort::Column => &[Section::SpaceColumn],
             _ => &[Section::SpaceBeam],
         };
-        let Some(own) = reader.open(entry, sections) else {
+        let Some(entry_view) = reader.open(entry, sections) else {
             continue;
         };
-        let omit = read_omit(reader, &own);
-        let moments = read_hinge(reader, view, &own, sort, hinges);
+        let omit = read_omit(reader, &entry_view);
+        let moments = read_hinge(reader, view, &entry_view, sort, hinges);
         let member = if omit {
             None
         } else {
-            let section = read_section(reader, &own, sort, material);
-            let reinforced = read_bars(reader, view, &own, sort);
+            let section = read_section(reader, &entry_view, sort, material);
+            let reinforced = read_bars(reader, view, &entry_view, sort);
             match section {
                 Some((section, slab)) => Some(Member {
                     section,
@@ -477,7 +477,7 @@ fn read_sort<'n>(
             }
         };
         let most = [("x", counts[0]), ("y", counts[1]), ("storeys", plans.len())];
-        let ranges = most.map(|(key, most)| range(reader, &own, key, most));
+        let ranges = most.map(|(key, most)| range(reader, &entry_view, key, most));
         let [Some(x), Some(y), Some(storeys)] = ranges else {
             continue;
         };
@@ -509,7 +509,7 @@ fn read_sort<'n>(
 fn read_bars(
     reader: &mut Reader<'_>,
     building: &View<'_>,
-    own: &View<'_>,
+    view: &View<'_>,
     sort: Sort,
 ) -> Option<ReadSection> {
     // Faults are noted where the modulus is read.
@@ -517,25 +517,25 @@ fn read_bars(
         .get(building, "concrete")
         .and_then(|field| reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES)));
     let size = |reader: &mut Reader<'_>| {
-        let size = reader.quietly(|reader| read_size(reader, own, sort));
+        let size = reader.quietly(|reader| read_size(reader, view, sort));
         let [first, second] = [0, 1].map(|side| size.map(|size| size[side]));
         match sort {
             Sort::Column => [second, first],
             Sort::BeamX | Sort::BeamY => [first, second],
         }
     };
-    reinforced::read_section(reader, own, size, concrete)
+    reinforced::read_section(reader, view, size, concrete)
 }
 
 /// Moments of the hinges of some members.
 pub(super) fn read_hinge<'n>(
     reader: &mut Reader<'_>,
     building: &View<'_>,
-    own: &View<'n>,
+    view: &View<'n>,
     sort: Sort,
     hinges: Option<&SpaceHinges<'n>>,
 ) -> Option<Moments<'n>> {
-    let field = reader.get(own, "hinge")?;
+    let field = reader.get(view, "hinge")?;
     match hinges {
         Some(hinges) => hinges.of_entry(reader, &field, sort == Sort::Column),
         None => {
@@ -586,18 +586,18 @@ fn read_section(
     material: Material,
 ) -> Option<(SpaceSection, Option<OnSlab>)> {
     if let Some(field) = reader.get(view, "profile") {
-        return read_profile(reader, view, &field, sort, material).map(|own| (own, None));
+        return read_profile(reader, view, &field, sort, material).map(|profile| (profile, None));
     }
     if let Some(field) = reader.get(view, "axis") {
         *reader.bad(&field, "is for a profile") = Some("leave it out, or add profile".into());
         return None;
     }
     let size = read_size(reader, view, sort);
-    let (own, own_is_bad) = match view.has("bars") {
+    let (stated_modulus, own_is_bad) = match view.has("bars") {
         true => read_modulus_beside_bars(reader, view),
         false => read_modulus(reader, view),
     };
-    let Some(modulus) = own.or(material.modulus) else {
+    let Some(modulus) = stated_modulus.or(material.modulus) else {
         if !material.modulus_is_bad && !own_is_bad {
             let place = view.span.clone();
             *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") = Some(
@@ -612,7 +612,9 @@ fn read_section(
         _ => SpaceSection::beam(size?, modulus, nu, shears),
     }?;
     let [bending, torsion] = material.factors;
-    section.flexural_rigidity = section.flexural_rigidity.map(|own| bending * own);
+    section.flexural_rigidity = section
+        .flexural_rigidity
+        .map(|flexural_rigidity| bending * flexural_rigidity);
     section.torsional_rigidity *= torsion;
     // Columns have no such key.
     let slab = (sort != Sort::Column && view.has("slab")).then(|| reader.get(view, "slab"));

@@ -200,8 +200,10 @@ fn moments<'n>(
     let mut sound = true;
     for (axis, found) in axes.into_iter().zip(&mut found) {
         let Some(axis) = axis else { continue };
-        let own = reader.open(&axis, &[Section::Hinge]);
-        let sides = own.and_then(|own| read_moments(reader, &axis, &own, Some(&view), rule, rigid));
+        let axis_view = reader.open(&axis, &[Section::Hinge]);
+        let sides = axis_view.and_then(|axis_view| {
+            read_moments(reader, &axis, &axis_view, Some(&view), rule, rigid)
+        });
         sound &= sides.is_some();
         *found = sides.map(|sides| (sides, axis));
     }

@@ -54,7 +54,7 @@ pub(super) fn read_all<'n>(
         }
         if let Some(place) = found
             .iter()
-            .find(|own| walls.iter().any(|w| w.place == **own))
+            .find(|candidate| walls.iter().any(|w| w.place == **candidate))
         {
             *reader.bad(
                 &entry,
@@ -76,18 +76,18 @@ pub(super) fn read_all<'n>(
 
 /// Lets beams along a wall begin at its faces, and joins its storeys. Walls have no rigid ends of their own.
 pub(super) fn add_to(walls: &[WallStorey], frame: &mut SpaceFrame) {
-    for own in walls {
-        let [[x, y], _] = own.place.crossings();
-        let storey = own.place.storey();
+    for wall in walls {
+        let [[x, y], _] = wall.place.crossings();
+        let storey = wall.place.storey();
         for floor in storey.checked_sub(1).into_iter().chain([storey]) {
             let zone = frame.rigid_zones.entry([floor, x, y]).or_default();
-            let arm = &mut zone[own.along.index()];
-            *arm = arm.max(0.5 * own.length);
+            let arm = &mut zone[wall.along.index()];
+            *arm = arm.max(0.5 * wall.length);
             zone[2] = 0.0;
         }
-        let [line, _] = own.place.crossings();
+        let [line, _] = wall.place.crossings();
         let goes_on = frame.walls.iter_mut().find(|below| {
-            let same = (below.line, below.along, below.length) == (line, own.along, own.length);
+            let same = (below.line, below.along, below.length) == (line, wall.along, wall.length);
             same && below.storeys[1] + 1 == storey
         });
         match goes_on {
@@ -95,8 +95,8 @@ pub(super) fn add_to(walls: &[WallStorey], frame: &mut SpaceFrame) {
             None => frame.walls.push(SpaceWall {
                 line,
                 storeys: [storey; 2],
-                along: own.along,
-                length: own.length,
+                along: wall.along,
+                length: wall.length,
             }),
         }
     }
@@ -137,8 +137,8 @@ fn read<'n>(
                 }
             }
         });
-    let (own, own_is_bad) = read_modulus(reader, &view);
-    let modulus = own.or(material.modulus);
+    let (stated_modulus, own_is_bad) = read_modulus(reader, &view);
+    let modulus = stated_modulus.or(material.modulus);
     if modulus.is_none() && !material.modulus_is_bad && !own_is_bad {
         let place = view.span.clone();
         *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") =
@@ -176,13 +176,15 @@ fn read<'n>(
         section.flexural_rigidity[along.index()] = ei;
     }
     section.axial_rigidity = ea.or(section.axial_rigidity);
-    if let (Some(ga), Some(own)) = (ga, &mut section.shear_rigidity) {
-        own[along.index()] = ga;
+    if let (Some(ga), Some(rigidity)) = (ga, &mut section.shear_rigidity) {
+        rigidity[along.index()] = ga;
     }
-    section.flexural_rigidity = section.flexural_rigidity.map(|own| bending * own);
+    section.flexural_rigidity = section
+        .flexural_rigidity
+        .map(|flexural_rigidity| bending * flexural_rigidity);
     section.shear_rigidity = section
         .shear_rigidity
-        .map(|both| both.map(|own| shear * own));
+        .map(|both| both.map(|share| shear * share));
     section.torsional_rigidity *= torsion;
     let member = Member {
         section,

@@ -29,9 +29,9 @@ pub(super) fn of_buildings(
         .map(|table| table.map_or_else(Default::default, of_building));
     let mut stated: Vec<StatedBuilding> = known.collect();
     stated.resize(model.buildings.len(), StatedBuilding::default());
-    for (index, own) in stated.iter_mut().enumerate() {
-        if own.hinges_from_sections {
-            own.hinge_compression = hinge_compression(index, reinforced);
+    for (index, building) in stated.iter_mut().enumerate() {
+        if building.hinges_from_sections {
+            building.hinge_compression = hinge_compression(index, reinforced);
         }
     }
     stated
@@ -42,7 +42,7 @@ fn hinge_compression(building: usize, reinforced: &[ReinforcedMember]) -> Vec<Ve
     let mut storeys: Vec<Vec<f64>> = Vec::new();
     let columns = reinforced
         .iter()
-        .filter(|own| own.building == building && own.member == Member::Column);
+        .filter(|member| member.building == building && member.member == Member::Column);
     for column in columns {
         storeys.resize(storeys.len().max(column.floor), Vec::new());
         let row = &mut storeys[column.floor - 1];

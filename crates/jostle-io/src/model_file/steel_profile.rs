@@ -27,18 +27,18 @@ pub(super) fn read(
     material: Material,
 ) -> Option<Section> {
     let axis = axis_of(reader, view)?.unwrap_or(Axis::Strong);
-    let (own, modulus) = named_or_sized(reader, field)?;
+    let (profile, modulus) = named_or_sized(reader, field)?;
     let modulus = material
         .modulus
         .filter(|_| material.modulus_is_stated)
         .unwrap_or(modulus);
     let shears = material.shears;
     Some(Section {
-        flexural_rigidity: modulus * own.inertia(axis),
-        axial_rigidity: Some(modulus * own.area()),
+        flexural_rigidity: modulus * profile.inertia(axis),
+        axial_rigidity: Some(modulus * profile.area()),
         shear_rigidity: shears
-            .then(|| own.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
-        line_mass: STEEL_DENSITY * own.area(),
+            .then(|| profile.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
+        line_mass: STEEL_DENSITY * profile.area(),
     })
 }
 
@@ -57,27 +57,27 @@ pub(super) fn read_in_space(
         Axis::Strong => [Axis::Strong, Axis::Weak],
         Axis::Weak => [Axis::Weak, Axis::Strong],
     };
-    let (own, of_steel) = named_or_sized(reader, field)?;
+    let (profile, of_steel) = named_or_sized(reader, field)?;
     let modulus = modulus.unwrap_or(of_steel);
     let shear_modulus = modulus / (2.0 * (1.0 + STEEL_POISSON));
-    let [first, second] = axes.map(|axis| own.depth(axis));
+    let [first, second] = axes.map(|axis| profile.depth(axis));
     Some(SpaceSection {
         size: if is_column {
             [first, second]
         } else {
             [second, first]
         },
-        flexural_rigidity: axes.map(|axis| modulus * own.inertia(axis)),
-        torsional_rigidity: shear_modulus * own.torsion_constant(),
-        axial_rigidity: Some(modulus * own.area()),
-        shear_rigidity: shears.then(|| axes.map(|axis| shear_modulus * own.shear_area(axis))),
+        flexural_rigidity: axes.map(|axis| modulus * profile.inertia(axis)),
+        torsional_rigidity: shear_modulus * profile.torsion_constant(),
+        axial_rigidity: Some(modulus * profile.area()),
+        shear_rigidity: shears.then(|| axes.map(|axis| shear_modulus * profile.shear_area(axis))),
     })
 }
 
 /// Size of a profile in the direction of bending \[m\].
 pub(super) fn depth(reader: &mut Reader<'_>, view: &View<'_>, field: &Field<'_>) -> Option<f64> {
-    let (own, _) = named_or_sized(reader, field)?;
-    Some(own.depth(axis_of(reader, view)?.unwrap_or(Axis::Strong)))
+    let (profile, _) = named_or_sized(reader, field)?;
+    Some(profile.depth(axis_of(reader, view)?.unwrap_or(Axis::Strong)))
 }
 
 /// The profile of a brace, with the axis about which it buckles.
@@ -109,7 +109,7 @@ fn axis_of(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Axis>> {
 /// The profile, and the modulus of its steel.
 fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<(Profile, f64)> {
     if let Some(name) = field.as_text() {
-        let Some(own) = Profile::named(name) else {
+        let Some(profile) = Profile::named(name) else {
             let plain = name.to_uppercase().replace(' ', "");
             let remedy = nearest(&plain, Profile::names())
                 .map_or_else(|| "give its sizes: profile = { depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }".to_owned(), |name| format!("did you mean \"{name}\"? Others by sizes: profile = {{ depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }}"));
@@ -120,7 +120,7 @@ fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<(Profile
             *reader.bad(field, problem) = Some(remedy);
             return None;
         };
-        Some((own, Profile::modulus_of(name)))
+        Some((profile, Profile::modulus_of(name)))
     } else {
         let sizes = reader.open(field, &[KeySection::Profile])?;
         let mut size = |key: &'static str, example: &str| match reader.get(&sizes, key) {
@@ -136,18 +136,18 @@ fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<(Profile
             Some(field) => reader.positive(&field, Dimension::Length)?,
             None => 0.0,
         };
-        let own = ISection {
+        let section = ISection {
             depth: depth?,
             width: width?,
             web: web?,
             flange: flange?,
             radius,
         };
-        if let Some(fault) = own.fault() {
+        if let Some(fault) = section.fault() {
             *reader.bad(field, fault) = Some("check the sizes and their units".into());
             return None;
         }
-        Some((Profile::I(own), STEEL_MODULUS))
+        Some((Profile::I(section), STEEL_MODULUS))
     }
 }
 

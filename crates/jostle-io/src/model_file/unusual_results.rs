@@ -73,14 +73,18 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
         }
     }
     for (index, building) in model.buildings.iter().enumerate() {
-        let Some(own) = system
+        let Some(system_building) = system
             .buildings
             .get(index)
             .filter(|_| has_damping_matrix(building))
         else {
             continue;
         };
-        let Some(ratio) = own.modes.first().map(|mode| own.damping_ratio(mode)) else {
+        let Some(ratio) = system_building
+            .modes
+            .first()
+            .map(|mode| system_building.damping_ratio(mode))
+        else {
             continue;
         };
         let [least, most] = DAMPING_RATIO;
@@ -145,7 +149,8 @@ fn has_damping_matrix(building: &Building) -> bool {
         Structure::Given(given) => given.damping.iter().any(|entry| entry.2 != 0.0),
         Structure::Tiers(tiers) => {
             let matrices = tiers.matrices.as_ref();
-            matrices.is_some_and(|own| own.damping.iter().flatten().any(|value| *value != 0.0))
+            matrices
+                .is_some_and(|matrix| matrix.damping.iter().flatten().any(|value| *value != 0.0))
         }
         _ => false,
     }

@@ -61,24 +61,29 @@ impl GroundsSpec {
     /// Whether every building stands on the common ground and nothing shakes vertically.
     #[must_use]
     pub fn is_common(&self) -> bool {
-        let own = |own: &OwnGroundSpec| {
-            own.motion.is_none() && own.vertical.is_none() && own.arrival.is_none_or(|at| at == 0.0)
+        let is_plain = |spec: &OwnGroundSpec| {
+            spec.motion.is_none()
+                && spec.vertical.is_none()
+                && spec.arrival.is_none_or(|at| at == 0.0)
         };
         let waves = self.apparent_velocity.is_some() || self.coherency.is_some();
-        self.vertical.is_none() && !waves && self.own.iter().all(own)
+        self.vertical.is_none() && !waves && self.own.iter().all(is_plain)
     }
 
     /// The ground that a building or wall stands on.
     fn under(&self, index: usize) -> &OwnGroundSpec {
-        let own = &self.own[index];
-        own.like.and_then(|like| self.own.get(like)).unwrap_or(own)
+        let spec_own = &self.own[index];
+        spec_own
+            .like
+            .and_then(|like| self.own.get(like))
+            .unwrap_or(spec_own)
     }
 
     /// When the motion arrives at a building or wall, numbered from the first building \[s\].
     #[must_use]
     pub fn arrival(&self, index: usize) -> f64 {
-        let own = self.under(index);
-        match (own.arrival, own.position, self.apparent_velocity) {
+        let ground = self.under(index);
+        match (ground.arrival, ground.position, self.apparent_velocity) {
             (Some(arrival), _, _) => arrival,
             (None, Some(position), Some(velocity)) => position / velocity,
             (None, _, _) => 0.0,
@@ -107,15 +112,15 @@ impl GroundsSpec {
             .transpose()?;
         let mut grounds = Vec::with_capacity(self.own.len());
         for index in 0..self.own.len() {
-            let own = self.under(index);
-            let building = own.like.unwrap_or(index);
+            let ground = self.under(index);
+            let building = ground.like.unwrap_or(index);
             let path = |key: &str| format!("building[{building}].motion{key}");
-            let motion = own.motion.as_deref();
+            let motion = ground.motion.as_deref();
             let motion = motion.map(|motion| {
                 let found = self.motion(motion, spec, common);
                 found.map_err(|error| within(&path(""), error))
             });
-            let vertical = own.vertical.as_deref();
+            let vertical = ground.vertical.as_deref();
             let vertical = vertical.map(|motion| {
                 let found = self.motion(motion, spec, common);
                 found.map_err(|error| within(&path(".vertical"), error))
@@ -127,23 +132,23 @@ impl GroundsSpec {
             });
         }
         self.check_drift(common, &grounds)?;
-        let own = |own: &OwnGround| *own != OwnGround::default();
-        let differ = grounds.iter().any(own);
+        let differs = |ground: &OwnGround| *ground != OwnGround::default();
+        let differ = grounds.iter().any(differs);
         Ok(differ.then(|| Box::new(Grounds { own: grounds })))
     }
 
     /// A motion beside the common one.
     fn motion(
         &self,
-        own: &OwnMotionSpec,
+        local_spec: &OwnMotionSpec,
         spec: &MotionSpec,
         common: &GroundMotion,
     ) -> Result<GroundMotion, MotionError> {
-        let source = own.source.as_ref().unwrap_or(&spec.source);
+        let source = local_spec.source.as_ref().unwrap_or(&spec.source);
         let mut motion = MotionSpec {
             source: source.clone(),
-            scaling: own.scaling.clone(),
-            reverse: own.reverse,
+            scaling: local_spec.scaling.clone(),
+            reverse: local_spec.reverse,
             // A sine lasts as long as the common motion, a record as long as it is.
             duration: matches!(source, MotionSource::Sine { .. }).then_some(common.duration),
             bearing: None,
@@ -155,7 +160,7 @@ impl GroundsSpec {
         .resolve()?;
         // Records of one event keep their ratio, and a share of the common motion is a share; what states an amplitude or a
         // scaling of its own keeps it.
-        let follows = match (&own.scaling, &own.source) {
+        let follows = match (&local_spec.scaling, &local_spec.source) {
             (Scaling::AsRecorded | Scaling::Factor(_), None) => true,
             (Scaling::AsRecorded, Some(source)) => !source.states_its_size(),
             (
@@ -184,9 +189,9 @@ impl GroundsSpec {
                 ..*coherency
             };
             let across = less_coherent(across, &places, &coherency)?;
-            for (own, across) in made.iter_mut().zip(across) {
-                if let Some(own) = own {
-                    own.bearing = Some(Box::new(Bearing {
+            for (made, across) in made.iter_mut().zip(across) {
+                if let Some(motion) = made {
+                    motion.bearing = Some(Box::new(Bearing {
                         angle: bearing.angle,
                         across,
                     }));
@@ -202,8 +207,8 @@ impl GroundsSpec {
             return Ok(());
         }
         let mut known: Vec<(&GroundMotion, [f64; 2])> = Vec::new();
-        for own in grounds {
-            let motion = own.motion.as_ref().unwrap_or(common);
+        for ground in grounds {
+            let motion = ground.motion.as_ref().unwrap_or(common);
             if !known.iter().any(|(other, _)| *other == motion) {
                 known.push((motion, end_and_peak(motion)));
             }

@@ -226,10 +226,11 @@ impl InputTable {
         let mut block: Block = vec![Vec::new(); self.names.len()];
         let mut start = 0;
         for (index, &rows) in groups.iter().enumerate() {
-            let own = wanted.start.max(start)..wanted.end.min(start + rows);
-            if own.start < own.end {
+            let range = wanted.start.max(start)..wanted.end.min(start + rows);
+            if range.start < range.end {
                 let group = reader.get_row_group(index)?;
-                let [skip, count] = [own.start - start, own.end - own.start].map(|n| n as usize);
+                let [skip, count] =
+                    [range.start - start, range.end - range.start].map(|n| n as usize);
                 for (column, cells) in block.iter_mut().enumerate() {
                     let most = group
                         .metadata()
@@ -433,21 +434,23 @@ fn add_cells(
         }
     };
     match reader {
-        ColumnReader::DoubleColumnReader(own) => add(own, rows, most, into, |v| number(*v)),
+        ColumnReader::DoubleColumnReader(reader) => add(reader, rows, most, into, |v| number(*v)),
         // The shortest text of a number in single precision is that of the decimal number that was meant.
-        ColumnReader::FloatColumnReader(own) => add(own, rows, most, into, |v| {
+        ColumnReader::FloatColumnReader(reader) => add(reader, rows, most, into, |v| {
             number(v.to_string().parse().unwrap_or(f64::NAN))
         }),
-        ColumnReader::Int32ColumnReader(own) => add(own, rows, most, into, |v| {
+        ColumnReader::Int32ColumnReader(reader) => add(reader, rows, most, into, |v| {
             Ok(Some(TreeValue::Integer((*v).into())))
         }),
-        ColumnReader::Int64ColumnReader(own) => {
-            add(own, rows, most, into, |v| Ok(Some(TreeValue::Integer(*v))))
+        ColumnReader::Int64ColumnReader(reader) => add(reader, rows, most, into, |v| {
+            Ok(Some(TreeValue::Integer(*v)))
+        }),
+        ColumnReader::BoolColumnReader(reader) => {
+            add(reader, rows, most, into, |v| Ok(Some(TreeValue::Flag(*v))))
         }
-        ColumnReader::BoolColumnReader(own) => {
-            add(own, rows, most, into, |v| Ok(Some(TreeValue::Flag(*v))))
+        ColumnReader::ByteArrayColumnReader(reader) => {
+            add(reader, rows, most, into, |v| text(v.data()))
         }
-        ColumnReader::ByteArrayColumnReader(own) => add(own, rows, most, into, |v| text(v.data())),
         ColumnReader::Int96ColumnReader(_) | ColumnReader::FixedLenByteArrayColumnReader(_) => {
             Err(ParquetError::General(
                 "has a column of times or of bytes; inputs are numbers, texts or flags".into(),

@@ -20,8 +20,8 @@ isolation = {{ mat_mass = "100 t", {isolation} }}
 
 fn isolator(text: &str) -> Isolator {
     let input = sound(&model(text));
-    let own = input.model.buildings[0].base.isolation;
-    own.expect("it is isolated").isolator
+    let isolation = input.model.buildings[0].base.isolation;
+    isolation.expect("it is isolated").isolator
 }
 
 const TRIPLE: &str = r#"kind = "triple-friction-pendulum", radius = ["2.1 m", "0.3 m", "0.3 m", "2.1 m"], friction = [0.04, 0.015, 0.015, 0.08], capacity = ["300 mm", "50 mm", "50 mm", "300 mm"]"#;

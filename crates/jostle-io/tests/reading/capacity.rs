@@ -36,8 +36,8 @@ fn read(ties: bool, gravity: &str, output: &str) -> Result<Input, String> {
 fn rules(input: &Input) -> Vec<&'static str> {
     let capacities = &input.model.analysis.members.capacities;
     let first = capacities.first();
-    first.map_or_else(Vec::new, |own| {
-        own.rules.iter().map(|rule| rule.rule).collect()
+    first.map_or_else(Vec::new, |capacity| {
+        capacity.rules.iter().map(|rule| rule.rule).collect()
     })
 }
 
@@ -74,7 +74,10 @@ fn all_rules_where_members_are_asked_for() {
     let capacities = &input.model.analysis.members.capacities;
     // Three columns and two beams in each of two storeys.
     assert_eq!(capacities.len(), 10);
-    let names: Vec<&str> = capacities.iter().map(|own| &own.member[..]).collect();
+    let names: Vec<&str> = capacities
+        .iter()
+        .map(|capacity| &capacity.member[..])
+        .collect();
     assert!(
         names.contains(&"A.column.3.2") && names.contains(&"A.beam.2.1"),
         "{names:?}"
@@ -83,19 +86,19 @@ fn all_rules_where_members_are_asked_for() {
     // less what their feet rest on.
     let ground = capacities
         .iter()
-        .filter(|own| own.member.contains(".column.") && own.member.ends_with(".1"));
-    let carried: f64 = ground.map(|own| own.compression_at_rest).sum();
+        .filter(|capacity| capacity.member.contains(".column.") && capacity.member.ends_with(".1"));
+    let carried: f64 = ground.map(|ground| ground.compression_at_rest).sum();
     let due = 9.80665 * (2.0 * 3600.0 * 11.0 + 3.0 * 625.0 * 7.2);
     assert!((carried / due - 1.0).abs() < 0.05, "{carried} for {due}");
     let beam = capacities
         .iter()
-        .find(|own| own.member == "A.beam.1.1")
+        .find(|capacity| capacity.member == "A.beam.1.1")
         .expect("there");
     assert!(!beam.follows_axial && beam.compression_at_rest == 0.0);
     // Clear lengths exclude beams and columns.
     let of = |name: &str| {
         let member = input.reinforced.iter().find(|member| {
-            let own = match member.member {
+            let label = match member.member {
                 jostle_section::formula::Member::Column => {
                     format!("column.{}.{}", member.place, member.floor)
                 }
@@ -103,7 +106,7 @@ fn all_rules_where_members_are_asked_for() {
                     format!("beam.{}.{}", member.floor, member.place)
                 }
             };
-            own == name
+            label == name
         });
         member.expect("there").clear_length
     };

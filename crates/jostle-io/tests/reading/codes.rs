@@ -10,9 +10,9 @@ fn read(text: &str) -> Result<Input, String> {
 }
 
 /// Two shear buildings; `own` are keys of the first.
-fn towers(own: &str, codes: &str) -> String {
+fn towers(keys: &str, codes: &str) -> String {
     let tower = "[[building]]\nkind = \"shear\"\nmass = [\"40 t\", \"40 t\"]\nstiffness = [\"60 MN/m\", \"50 MN/m\"]\nstorey_height = \"3 m\"\n";
-    format!("{tower}{own}\n{tower}{codes}\n")
+    format!("{tower}{keys}\n{tower}{codes}\n")
 }
 
 fn frame(concrete: &str, column: &str) -> String {
@@ -148,8 +148,8 @@ fn ambiguous_materials_are_refused_with_the_remedy() {
 
 #[test]
 fn sections_take_materials_of_any_code() {
-    let strengths = |concrete: &str, own: &str, steel: &str| {
-        let bars = format!(", bars = \"8 d20\", steel = \"{steel}\"{own}");
+    let strengths = |concrete: &str, keys: &str, steel: &str| {
+        let bars = format!(", bars = \"8 d20\", steel = \"{steel}\"{keys}");
         let input = sound(&frame(&format!("concrete = \"{concrete}\""), &bars));
         let section = &input.reinforced[0].section;
         [section.concrete.strength, section.steel.yield_strength].map(|p| 1e-6 * p)

@@ -6,9 +6,11 @@ use jostle_testkit::files::{refusal, sound};
 /// α and β of the only building, and the ratio of critical damping that each of its lateral modes has.
 fn damped(text: &str) -> ((f64, f64), Vec<f64>) {
     let system = System::assemble(&sound(text).model).expect("sound");
-    let own = &system.buildings[0];
-    let ratios = own.lateral_modes().map(|mode| own.damping_ratio(mode));
-    let equations = &own.equations;
+    let building = &system.buildings[0];
+    let ratios = building
+        .lateral_modes()
+        .map(|mode| building.damping_ratio(mode));
+    let equations = &building.equations;
     ((equations.alpha, equations.beta), ratios.collect())
 }
 

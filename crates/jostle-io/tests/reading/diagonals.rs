@@ -36,7 +36,13 @@ fn a_table_stands_for_the_bays_and_storeys_that_it_names() {
     );
     let places: Vec<_> = some
         .iter()
-        .map(|own| (own.place.storey, own.place.bay, own.place.rise))
+        .map(|diagonal| {
+            (
+                diagonal.place.storey,
+                diagonal.place.bay,
+                diagonal.place.rise,
+            )
+        })
         .collect();
     assert_eq!(places, [(2, 2, Rise::Left), (3, 2, Rise::Left)]);
     assert!(some.iter().all(|own| {
@@ -50,12 +56,12 @@ fn a_table_stands_for_the_bays_and_storeys_that_it_names() {
 fn a_profile_buckles_by_its_length() {
     // HEB160 as catalogues print it: A = 54.25 cm², Iz = 889.2 cm⁴, Wpl,z = 170.0 cm³; diagonals of 5 m.
     let (area, inertia, plastic) = (54.25e-4, 889.2e-8, 170.0e-6);
-    let own = diagonals(
+    let braces = diagonals(
         "[[building.brace]]\nprofile = \"HEB160\"\nbay = 1\nhinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"275 MPa\", effective_length = 0.9, later = 0.6, post_yield = 0.01 }\n",
     );
-    let law = own[0].hysteresis.expect("it buckles");
+    let law = braces[0].hysteresis.expect("it buckles");
     let stiffness = 210e9 * area / 5.0;
-    assert!((own[0].stiffness / stiffness - 1.0).abs() < 2e-3);
+    assert!((braces[0].stiffness / stiffness - 1.0).abs() < 2e-3);
     let yields = area * 275e6;
     assert!((law.backbone().yield_force() / yields - 1.0).abs() < 2e-3);
     let euler = std::f64::consts::PI.powi(2) * 210e9 * inertia / (0.9_f64 * 5.0).powi(2);
@@ -67,7 +73,7 @@ fn a_profile_buckles_by_its_length() {
     let arm = law.backbone().yield_force().recip() * 275e6 * plastic;
     let by_numbers = diagonals(&format!(
         "[[building.brace]]\nEA = {}\nbay = 1\nhinge = {{ rule = \"buckling\", buckling = {found}, yield = {}, slenderness = {slenderness}, lever_arm = {arm}, effective_length = 0.9, later = 0.6, post_yield = 0.01 }}\n",
-        own[0].stiffness * 5.0,
+        braces[0].stiffness * 5.0,
         law.backbone().yield_force(),
     ));
     let other = by_numbers[0].hysteresis.expect("it buckles");
@@ -84,11 +90,11 @@ fn a_panel_is_two_struts_without_tension() {
         "[[building.infill]]\nstoreys = 3\nbay = 1\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\nwidth = \"1.25 m\"\n",
     );
     assert_eq!(struts.len(), 2);
-    for own in struts {
-        assert_eq!(own.place.kind, DiagonalKind::Infill);
+    for strut in struts {
+        assert_eq!(strut.place.kind, DiagonalKind::Infill);
         let stiffness = 4e9 * 0.2 * 1.25 / 5.0;
-        assert!((own.stiffness / stiffness - 1.0).abs() < 1e-12);
-        let law = own.hysteresis.expect("it lifts off");
+        assert!((strut.stiffness / stiffness - 1.0).abs() < 1e-12);
+        let law = strut.hysteresis.expect("it lifts off");
         let force = |deformation| law.respond(&Default::default(), deformation).force;
         assert_eq!(force(1e-3), 0.0);
         assert!((force(-1e-3) / (-1e-3 * stiffness) - 1.0).abs() < 1e-12);
@@ -258,8 +264,11 @@ fn rules_give_a_panel_its_strut() {
         ("paulay-priestley", 0.25),
         ("holmes", 1.0 / 3.0),
     ] {
-        let own = panel(&format!("width = \"{width}\""));
-        assert!((own.stiffness / due(share) - 1.0).abs() < 1e-12, "{width}");
+        let strut = panel(&format!("width = \"{width}\""));
+        assert!(
+            (strut.stiffness / due(share) - 1.0).abs() < 1e-12,
+            "{width}"
+        );
         let opened = panel(&format!("width = \"{width}\"\nopening = 0.2"));
         assert!((opened.stiffness / due(0.7 * share) - 1.0).abs() < 1e-12);
     }
@@ -269,8 +278,9 @@ fn rules_give_a_panel_its_strut() {
     let cracked = panel("width = \"1 m\"\nforce = \"200 kN\"\nopening = 0.2");
     let secant = 0.7 * due(1.0 / 5.0);
     assert!((cracked.stiffness / (4.0 * secant) - 1.0).abs() < 1e-12);
-    let curve = |own: &jostle::Diagonal| {
-        *own.hysteresis
+    let curve = |diagonal: &jostle::Diagonal| {
+        *diagonal
+            .hysteresis
             .expect("it cracks")
             .backbone()
             .side(Side::Negative)
@@ -304,8 +314,8 @@ fn pinched(more: &str) -> String {
 #[test]
 fn panels_crack_in_compression() {
     let text = pinched("post_yield = -0.05\nresidual = 0.25");
-    for own in diagonals(&text) {
-        let law = own.hysteresis.expect("it cracks");
+    for diagonal in diagonals(&text) {
+        let law = diagonal.hysteresis.expect("it cracks");
         let [tension, compression] = Side::BOTH.map(|side| *law.backbone().side(side));
         assert_eq!(tension.force_at(0.1), 0.0);
         assert!((compression.force_at(1.0) - 40e3).abs() < 1e-6);
@@ -341,8 +351,8 @@ fn panels_bear_pressure_across_their_plane() {
         ),
     ] {
         let all = diagonals(&panel(more));
-        for own in all {
-            let across = own.across.expect("it is compared");
+        for diagonal in all {
+            let across = diagonal.across.expect("it is compared");
             assert!(
                 (across.strength / strength - 1.0).abs() < 1e-12,
                 "{more}: {across:?}"
@@ -392,19 +402,19 @@ fn panels_have_struts_off_the_joints() {
     let three = diagonals(&format!(
         "{PANEL}struts = 3\ncentral_share = 0.5\noffset = \"300 mm\"\n"
     ));
-    let offsets: Vec<_> = three.iter().map(|own| own.offsets).collect();
+    let offsets: Vec<_> = three.iter().map(|three| three.offsets).collect();
     let each = [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3]];
     assert_eq!(offsets, [each, each].concat());
     let shares = [0.5, 0.25, 0.25];
-    for (own, share) in three.iter().zip(shares.iter().cycle()) {
-        let [law, whole] = [own, &one[0]].map(|own| own.hysteresis.expect("it cracks"));
-        assert!((own.stiffness / one[0].stiffness - share).abs() < 1e-12);
+    for (three, share) in three.iter().zip(shares.iter().cycle()) {
+        let [law, whole] = [three, &one[0]].map(|strut| strut.hysteresis.expect("it cracks"));
+        assert!((three.stiffness / one[0].stiffness - share).abs() < 1e-12);
         for shortening in [1e-4, 2e-3, 3e-2] {
             let [part, all] = [law, whole].map(|law| law.backbone().force_at(-shortening));
             assert!((part / all - share).abs() < 1e-12, "{part} {all}");
         }
     }
-    let names: Vec<_> = three.iter().map(|own| own.place.to_string()).collect();
+    let names: Vec<_> = three.iter().map(|three| three.place.to_string()).collect();
     assert_eq!(
         names[..3],
         ["infill.2.1.up", "infill.2.1.up.foot", "infill.2.1.up.head"]
@@ -417,11 +427,11 @@ fn panels_are_damaged_by_drift() {
     let usual = diagonals(PANEL)[0].damage.expect("judged");
     assert_eq!(usual.drifts, [0.0018, 0.0046, 0.0105, 0.0188]);
     assert!((usual.drift_per_shortening - 5.0 / 12.0).abs() < 1e-15);
-    let own = diagonals(&format!(
+    let diagonals = diagonals(&format!(
         "{PANEL}damage_drifts = [0.001, 0.002, 0.003, 0.004]\n"
     ));
     assert_eq!(
-        own[1].damage.expect("judged").drifts,
+        diagonals[1].damage.expect("judged").drifts,
         [0.001, 0.002, 0.003, 0.004]
     );
     for (more, wanted) in [

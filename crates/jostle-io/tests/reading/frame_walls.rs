@@ -82,14 +82,14 @@ fn stiffness_factors_are_rules_or_numbers() {
         ("0.35", 0.35, 1.0),
     ] {
         let (frame, wall) = wall(&format!("line = 2\nstiffness_factor = {factor}\n"));
-        let own = frame.column(0, 1).expect("the wall");
-        let ratio = |own: Option<f64>, gross: Option<f64>| {
-            own.unwrap_or_default() / gross.unwrap_or_default()
+        let column = frame.column(0, 1).expect("the wall");
+        let ratio = |rigidity: Option<f64>, gross: Option<f64>| {
+            rigidity.unwrap_or_default() / gross.unwrap_or_default()
         };
         for (got, expected) in [
-            (own.flexural_rigidity / gross.flexural_rigidity, bending),
-            (ratio(own.shear_rigidity, gross.shear_rigidity), shear),
-            (ratio(own.axial_rigidity, gross.axial_rigidity), 1.0),
+            (column.flexural_rigidity / gross.flexural_rigidity, bending),
+            (ratio(column.shear_rigidity, gross.shear_rigidity), shear),
+            (ratio(column.axial_rigidity, gross.axial_rigidity), 1.0),
             (wall.stiffness_factors[0], bending),
             (wall.stiffness_factors[1], shear),
         ] {
@@ -153,8 +153,8 @@ fn hinges_have_a_stiffness_or_a_length() {
         ("length = \"1.2 m\"", 1.2),
         ("length = \"paulay-priestley\"", 0.2 * 3.0 + 0.044 * 8.0),
     ] {
-        let own = hinge(text);
-        let slope = own.backbone().side(Side::Positive).post_yield;
+        let hinge = hinge(text);
+        let slope = hinge.backbone().side(Side::Positive).post_yield;
         // Beyond yield a moment m turns the section over the length by m L/(0.02 EI), of which m L/EI is the wall's.
         let added = length / (0.02 * ei) - length / ei;
         assert!((slope * added - 1.0).abs() < 1e-9, "{slope} {added}");
@@ -168,9 +168,10 @@ fn walls_yield_where_the_file_says() {
         let text = format!(
             "line = 2\n[building.wall.hinge]\nrule = \"bilinear\"\nyield = \"5 MN.m\"\npost_yield = 0.02\ninitial = 50\n{more}\n"
         );
-        let own = wall(&text).1.hinges;
-        own.iter()
-            .map(|own| (own.storey, own.at_head))
+        let hinges = wall(&text).1.hinges;
+        hinges
+            .iter()
+            .map(|hinge| (hinge.storey, hinge.at_head))
             .collect::<Vec<_>>()
     };
     assert_eq!(places(""), [(1, false)]);

@@ -70,9 +70,9 @@ fn summary(text: &str) -> Summary {
 
 #[test]
 fn later_tables_replace_earlier_ones() {
-    let own = frame(&format!("{MOTION}{PODIUM}"));
+    let frame = frame(&format!("{MOTION}{PODIUM}"));
     let depth = |storey, line| {
-        let section = own.column(storey, line)?;
+        let section = frame.column(storey, line)?;
         Some((section.line_mass / 2500.0).sqrt())
     };
     assert_eq!(depth(0, 0), Some(0.5));
@@ -80,14 +80,21 @@ fn later_tables_replace_earlier_ones() {
     assert_eq!(depth(2, 0), None);
     assert!(depth(3, 2).is_some_and(|depth| (depth - 0.4).abs() < 1e-12));
     assert_eq!(
-        (own.all_columns().count(), own.joints(2), own.joints(3)),
+        (
+            frame.all_columns().count(),
+            frame.joints(2),
+            frame.joints(3)
+        ),
         (12, 4, 2)
     );
     // Beams stand between joints.
-    assert_eq!(own.all_beams().count(), 8);
-    assert!(own.beam(2, 0).is_none() && own.beam(2, 1).is_some());
-    assert_eq!((own.set_back(2), own.set_back(3)), ([0.0; 2], [6.0, 4.0]));
-    assert_eq!(own.tops(), [2, 4, 4, 2]);
+    assert_eq!(frame.all_beams().count(), 8);
+    assert!(frame.beam(2, 0).is_none() && frame.beam(2, 1).is_some());
+    assert_eq!(
+        (frame.set_back(2), frame.set_back(3)),
+        ([0.0; 2], [6.0, 4.0])
+    );
+    assert_eq!(frame.tops(), [2, 4, 4, 2]);
 }
 
 /// A single table, whether in double brackets or not, a list of one table per storey, and a list that names places are the same model, and
@@ -134,10 +141,15 @@ fn a_mirrored_frame_gives_mirrored_results() {
     let [one, other] = [summary(&one), summary(&other)];
     assert!(one.gaps[0].impact_count > 3);
     let greatest = one.gaps[0].peak_force_n;
-    let of = |summary: &Summary| summary.buildings.iter().position(|own| own.name == "A");
-    let [a, b] = [&one, &other].map(|own| &own.buildings[of(own).expect("A")]);
+    let of = |summary: &Summary| {
+        summary
+            .buildings
+            .iter()
+            .position(|building| building.name == "A")
+    };
+    let [a, b] = [&one, &other].map(|summary| &summary.buildings[of(summary).expect("A")]);
     for (a, b) in a.floors.above.iter().zip(&b.floors.above) {
-        let [a, b] = [a, b].map(|own| own.response);
+        let [a, b] = [a, b].map(|floor| floor.response);
         let top = a.displacement_max_m.abs().max(a.displacement_min_m.abs());
         close(
             b.displacement_min_m,
@@ -182,7 +194,7 @@ fn members_that_are_left_out_are_absent_from_results() {
     let names: Vec<String> = summary(&format!("{output}{MOTION}{PODIUM}")).buildings[0]
         .members
         .iter()
-        .map(|own| own.name.clone())
+        .map(|member| member.name.clone())
         .collect();
     assert_eq!(names.len(), 12 + 8);
     for name in ["A.column.2.4", "A.column.4.2", "A.beam.4.2", "A.beam.2.1"] {
@@ -208,7 +220,7 @@ fn faces_that_stand_back_have_wider_gaps() {
     let widths = |gap: &str| -> Vec<f64> {
         let model = sound(&format!("{MOTION}{PODIUM}{NEIGHBOUR}{gap}")).model;
         let contacts = assembled(&model).contacts;
-        contacts.iter().map(|own| own.width).collect()
+        contacts.iter().map(|contact| contact.width).collect()
     };
     assert_eq!(widths(GAP), [0.01, 0.01, 4.01, 4.01]);
     let listed = format!("{GAP}floors = [[2, 2], [4, 4]]\n");
@@ -314,7 +326,9 @@ fn buildings_stand_at_their_elevations() {
     let low = PODIUM.replace("name = \"A\"", "name = \"A\"\nelevation = \"-3 m\"");
     let contacts = |text: &str| -> Vec<(f64, [Option<usize>; 2])> {
         let contacts = assembled(&sound(text).model).contacts;
-        let places = contacts.iter().map(|own| (own.height, own.ports.floors()));
+        let places = contacts
+            .iter()
+            .map(|contact| (contact.height, contact.ports.floors()));
         places.collect()
     };
     let found = contacts(&format!("{MOTION}{low}{NEIGHBOUR}{GAP}"));
@@ -391,7 +405,7 @@ column = [{{ width = 0.4, depth = 0.5 }}, {{ profile = "HEB200", axis = "weak" }
             other => panic!("{other:?}"),
         }
     };
-    let (own, _) = frame("rigid_ends = 0.5");
+    let (structure, _) = frame("rigid_ends = 0.5");
     let near = |found: [f64; 2], wanted: [f64; 2]| {
         let mut both = found.into_iter().zip(wanted);
         assert!(
@@ -400,19 +414,19 @@ column = [{{ width = 0.4, depth = 0.5 }}, {{ profile = "HEB200", axis = "weak" }
         );
     };
     for line in 0..2 {
-        near(own.rigid_zone([0, line]), [0.125, 0.15]);
-        near(own.rigid_zone([1, line]), [0.05, 0.075]);
+        near(structure.rigid_zone([0, line]), [0.125, 0.15]);
+        near(structure.rigid_zone([1, line]), [0.05, 0.075]);
     }
     near(
-        [own.clear_span([0, 0]), own.clear_height([1, 0])],
+        [structure.clear_span([0, 0]), structure.clear_height([1, 0])],
         [4.75, 2.775],
     );
-    near([own.clear_height([0, 1]), 0.0], [2.85, 0.0]);
-    let (own, hinges) = frame(
+    near([structure.clear_height([0, 1]), 0.0], [2.85, 0.0]);
+    let (structure, hinges) = frame(
         "rigid_ends = { beams = \"20 cm\" }\njoint = { rotational_stiffness = \"40 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"180 kN.m\", post_yield = 0.03 } }",
     );
-    near(own.rigid_zone([1, 1]), [0.2, 0.0]);
-    assert_eq!(own.joint.rotational_stiffness, None);
+    near(structure.rigid_zone([1, 1]), [0.2, 0.0]);
+    assert_eq!(structure.joint.rotational_stiffness, None);
     let Some(jostle::Hinges::Frame(hinges)) = hinges else {
         panic!("{hinges:?}");
     };

@@ -62,22 +62,22 @@ duration = "6 s"
 "#;
 
 /// Displacement of a floor in the equations: along x and across and rotation of the floors, from the ground up.
-fn dof(own: &BuildingSystem, place: usize) -> usize {
-    own.tracks[(place % 3) * own.floors.len() + place / 3].dof
+fn dof(system: &BuildingSystem, place: usize) -> usize {
+    system.tracks[(place % 3) * system.floors.len() + place / 3].dof
 }
 
 /// Stiffness over the motions of the floors, row by row, and their masses.
-fn matrices(own: &BuildingSystem) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let n = 3 * own.floors.len();
-    assert_eq!(own.equations.len(), n);
+fn matrices(system: &BuildingSystem) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let n = 3 * system.floors.len();
+    assert_eq!(system.equations.len(), n);
     let column = |place: usize| {
         let mut unit = vec![0.0; n];
-        unit[dof(own, place)] = 1.0;
+        unit[dof(system, place)] = 1.0;
         let mut force = vec![0.0; n];
-        own.equations.stiffness.multiply_add(&unit, &mut force);
-        (0..n).map(|row| force[dof(own, row)]).collect()
+        system.equations.stiffness.multiply_add(&unit, &mut force);
+        (0..n).map(|row| force[dof(system, row)]).collect()
     };
-    let mass = (0..n).map(|place| own.equations.mass[dof(own, place)]);
+    let mass = (0..n).map(|place| system.equations.mass[dof(system, place)]);
     ((0..n).map(column).collect(), mass.collect())
 }
 
@@ -113,8 +113,8 @@ fn frame_as_matrices(more: &str) -> String {
 fn numbers(value: &serde_json::Value, found: &mut Vec<f64>) {
     match value {
         serde_json::Value::Number(number) => found.extend(number.as_f64()),
-        serde_json::Value::Array(list) => list.iter().for_each(|own| numbers(own, found)),
-        serde_json::Value::Object(table) => table.values().for_each(|own| numbers(own, found)),
+        serde_json::Value::Array(list) => list.iter().for_each(|element| numbers(element, found)),
+        serde_json::Value::Object(table) => table.values().for_each(|table| numbers(table, found)),
         _ => {}
     }
 }
@@ -133,7 +133,7 @@ fn same_run(expected: &str, found: &str, least_impacts: usize) {
         one.1.impacts.len()
     );
     assert_eq!(one.1.impacts.len(), other.1.impacts.len());
-    let greatest = one.1.impacts.iter().map(|own| own.peak_force);
+    let greatest = one.1.impacts.iter().map(|impact| impact.peak_force);
     let greatest = greatest.fold(0.0, f64::max);
     for (one, other) in one.1.impacts.iter().zip(&other.1.impacts) {
         assert_eq!(one.contact, other.contact);
@@ -215,7 +215,7 @@ fn bearings_carry_a_given_building_as_they_carry_its_frame() {
 
 fn tiers(text: &str) -> Tiers {
     match &sound(text).model.buildings[0].structure {
-        Structure::Tiers(own) => own.clone(),
+        Structure::Tiers(tiers) => tiers.clone(),
         other => panic!("no plan: {other:?}"),
     }
 }
@@ -238,16 +238,16 @@ fn units_act_on_rotations_as_on_moments() {
     let matrices = format!(
         "stiffness = [[900000.0, -4000, 0], [-4000, 40, 0], [0, 0, 50]], mass = [{j}, {m}, {m}]"
     );
-    let own = tiers(&(one_floor(&matrices, port, "units = \"kip, in\"\n") + MOTION));
-    near(own.floors[0].mass, m * kip / inch, 1e-12, "mass");
+    let tiers = tiers(&(one_floor(&matrices, port, "units = \"kip, in\"\n") + MOTION));
+    near(tiers.floors[0].mass, m * kip / inch, 1e-12, "mass");
     near(
-        own.floors[0].polar_mass,
+        tiers.floors[0].polar_mass,
         j * kip * inch,
         1e-12,
         "polar mass",
     );
-    assert_eq!(own.floors[0].centre, [4.0, 3.0]);
-    let rows = own.matrices.expect("given").stiffness;
+    assert_eq!(tiers.floors[0].centre, [4.0, 3.0]);
+    let rows = tiers.matrices.expect("given").stiffness;
     near(rows[0][0], 40.0 * kip / inch, 1e-12, "along x");
     near(rows[1][1], 50.0 * kip / inch, 1e-12, "across");
     near(rows[2][0], -4000.0 * kip, 1e-12, "coupling");
@@ -311,7 +311,7 @@ fn a_damping_matrix_damps_every_motion_by_itself() {
         .iter()
         .map(|m| m.period())
         .collect();
-    let mut expected = omega.map(|own| TAU / own);
+    let mut expected = omega.map(|omega| TAU / omega);
     expected.sort_by(|a, b| b.total_cmp(a));
     for (found, expected) in periods.iter().zip(expected) {
         near(*found, expected, 1e-12, "period");
@@ -339,13 +339,13 @@ fn the_centre_of_mass_follows_from_the_mass_matrix() {
     let turning = j + m * (x * x + y * y);
     let mass = [[m, 0.0, -m * y], [0.0, m, m * x], [-m * y, m * x, turning]];
     let matrices = format!("stiffness = [[3e7, 0, 0], [0, 3e7, 0], [0, 0, 5e8]], mass = {mass:?}");
-    let own = tiers(&(one_floor(&matrices, "dofs = [1, 2, 3], height = 3", "") + MOTION));
-    let floor = &own.floors[0];
+    let tiers = tiers(&(one_floor(&matrices, "dofs = [1, 2, 3], height = 3", "") + MOTION));
+    let floor = &tiers.floors[0];
     near(floor.centre[0], 4.0 + x, 1e-14, "x");
     near(floor.centre[1], 3.0 + y, 1e-14, "y");
     near(floor.polar_mass, j, 1e-12, "polar mass");
     // The spring at the middle pulls at an arm.
-    let rows = own.matrices.expect("given").stiffness;
+    let rows = tiers.matrices.expect("given").stiffness;
     let expected = [3e7 * y, -3e7 * x, 5e8 + 3e7 * (x * x + y * y)];
     for (found, expected) in rows[2].iter().zip(expected) {
         close(*found, expected, largest(&rows[2]), 1e-14, "torsion");

@@ -44,9 +44,9 @@ fn refused(motion: &str, a: &str, b: &str, rest: &str) -> String {
 /// A sine of its own needs no duration, and acts to the end of the common motion, as does a share of a common sine.
 #[test]
 fn sines_of_single_buildings_last_as_long_as_the_motion() {
-    let own = "motion = { kind = \"sine\", amplitude = \"2 m/s2\", period = \"0.2 s\" }";
+    let keys = "motion = { kind = \"sine\", amplitude = \"2 m/s2\", period = \"0.2 s\" }";
     let drifting = format!("{EL_CENTRO}\nbaseline = \"as-recorded\"");
-    let input = read(&drifting, own, "", "").expect("sound");
+    let input = read(&drifting, keys, "", "").expect("sound");
     let motion = input.ground_motion().expect("a motion");
     let common = motion.duration;
     for t in [0.05, 1.05, 10.05, common - 0.15] {
@@ -84,8 +84,8 @@ fn arrivals_follow_from_positions_and_velocity() {
 #[test]
 fn own_motions_have_their_own_scale_or_that_of_all() {
     let scaled = format!("{EL_CENTRO}\npga = \"0.1 g\"");
-    let own = "motion = { record = \"el-centro-1940-ns\", reverse = true }";
-    let input = read(&scaled, "", own, "").expect("sound");
+    let keys = "motion = { record = \"el-centro-1940-ns\", reverse = true }";
+    let input = read(&scaled, "", keys, "").expect("sound");
     let motion = input.ground_motion().expect("a motion");
     let scale = motion.scale;
     let under = &motion.grounds.as_ref().expect("grounds").own[1];
@@ -144,15 +144,15 @@ fn drifting_records_need_a_baseline() {
             folder.join(name).display()
         )
     };
-    let own = format!("[building.motion]\n{}", file("two.txt"));
-    let text = refused(&file("one.txt"), "", &own, "");
+    let keys = format!("[building.motion]\n{}", file("two.txt"));
+    let text = refused(&file("one.txt"), "", &keys, "");
     assert!(
         text.contains("drift apart") && text.contains("baseline"),
         "{text}"
     );
     for baseline in ["as-recorded", "linear", "quadratic"] {
         let motion = format!("{}\nbaseline = \"{baseline}\"", file("one.txt"));
-        let input = read(&motion, "", &own, "").expect("sound");
+        let input = read(&motion, "", &keys, "").expect("sound");
         let motion = input.ground_motion().expect("a motion");
         let ends = [0, 1].map(|b| motion.under(b).at(4.99).velocity[0]);
         let apart = (ends[0] - ends[1]).abs();
@@ -343,7 +343,7 @@ fn grounds_of_plans_have_both_components() {
     // A record of its own along, the common one across.
     let input = read_in_plan(two, "motion = { scale = 2.0 }").expect("sound");
     let motion = input.ground_motion().expect("a motion");
-    let own = motion.under(1).at(t).acceleration;
+    let acceleration = motion.under(1).at(t).acceleration;
     let (sin, cos) = 25.0_f64.to_radians().sin_cos();
     let across = motion.across().expect("a component across").acceleration(t);
     let along = motion.acceleration(t);
@@ -351,8 +351,8 @@ fn grounds_of_plans_have_both_components() {
         2.0 * along * cos - across * sin,
         2.0 * along * sin + across * cos,
     ];
-    for (a, b) in expected.into_iter().zip(own) {
-        assert!((a - b).abs() < 1e-12, "{own:?}");
+    for (a, b) in expected.into_iter().zip(acceleration) {
+        assert!((a - b).abs() < 1e-12, "{acceleration:?}");
     }
     let loses = "coherency = { alpha = 0.1, shear_wave_velocity = \"200 m/s\", seed = 1 }";
     let input = read_in_plan(&format!("{two}\n{loses}"), "").expect("sound");
@@ -378,10 +378,10 @@ fn drift_does_not_depend_on_the_angle() {
     let record = folder.join("drifts.txt");
     std::fs::write(&record, (0..500).map(row).collect::<String>()).expect("a file");
     let towers = IN_PLAN.replace("A_KEYS", "");
-    let resolved = |own: &str| {
+    let resolved = |keys: &str| {
         let record = record.display();
         let motion = format!("record = '{record}'\nunit = \"m/s2\"\nangle = \"90 deg\"");
-        let text = format!("[motion]\n{motion}\n{}", towers.replace("B_KEYS", own));
+        let text = format!("[motion]\n{motion}\n{}", towers.replace("B_KEYS", keys));
         let input = files::read(&text);
         input.expect("sound").ground_motion()
     };

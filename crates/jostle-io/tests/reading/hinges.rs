@@ -500,9 +500,12 @@ const FLEXIBLE: &str = "axial = \"flexible\"\ngravity = true";
 fn columns_with_bars_become_fibres() {
     let hinges = hinges_of(&of_fibres(FLEXIBLE, ", length = \"0.4 m\""));
     assert_eq!(hinges.fibres.len(), 6);
-    let own = &hinges.fibres[&[1, 2]];
-    assert_eq!((own.length, own.at_ends), (0.4, [true, true]));
-    let sums = own
+    let hinge_fibre = &hinges.fibres[&[1, 2]];
+    assert_eq!(
+        (hinge_fibre.length, hinge_fibre.at_ends),
+        (0.4, [true, true])
+    );
+    let sums = hinge_fibre
         .fibres
         .iter()
         .fold([0.0; 3], |[area, first, steel], fibre| {
@@ -534,9 +537,9 @@ fn columns_with_bars_become_fibres() {
         ", length = \"paulay-priestley\", ends = \"base\"",
     ));
     assert_eq!(by_rule.fibres.len(), 3);
-    let own = &by_rule.fibres[&[0, 0]];
-    assert!((own.length - 0.296).abs() < 1e-12, "{} m", own.length);
-    assert_eq!(own.at_ends, [true, false]);
+    let fibre = &by_rule.fibres[&[0, 0]];
+    assert!((fibre.length - 0.296).abs() < 1e-12, "{} m", fibre.length);
+    assert_eq!(fibre.at_ends, [true, false]);
 }
 
 #[test]
@@ -650,9 +653,12 @@ hinges = { rule = "fibre", length = 0.4 }
 fn bars_of_fibres_bend_smoothly() {
     let bars = |more: &str| -> Vec<jostle::hysteresis::Hysteresis> {
         let hinges = hinges_of(&of_fibres(FLEXIBLE, &format!(", length = \"0.4 m\"{more}")));
-        let fibres = hinges.fibres[&[1, 2]].fibres.iter().map(|own| own.spring);
+        let fibres = hinges.fibres[&[1, 2]]
+            .fibres
+            .iter()
+            .map(|fibre| fibre.spring);
         fibres
-            .filter(|own| !matches!(own.rule(), HysteresisRule::Concrete(_)))
+            .filter(|fibre| !matches!(fibre.rule(), HysteresisRule::Concrete(_)))
             .collect()
     };
     let (straight, bent) = (bars(""), bars(", steel = \"menegotto-pinto\""));
@@ -664,8 +670,8 @@ fn bars_of_fibres_bend_smoothly() {
         };
         assert_eq!([law.sharpness, law.loss, law.half], [20.0, 0.925, 0.15]);
     }
-    let own = bars(", steel = { rule = \"menegotto-pinto\", R0 = 15 }");
-    assert!(matches!(own[0].rule(), HysteresisRule::MenegottoPinto(law) if law.sharpness == 15.0));
+    let laws = bars(", steel = { rule = \"menegotto-pinto\", R0 = 15 }");
+    assert!(matches!(laws[0].rule(), HysteresisRule::MenegottoPinto(law) if law.sharpness == 15.0));
     assert_eq!(bars(", steel = \"bilinear\""), straight);
     for (more, part) in [
         (

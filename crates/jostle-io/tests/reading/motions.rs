@@ -138,16 +138,16 @@ fn components_are_listed_beside_their_records() {
     let swapped = "\"nanjing-artificial\", \"el-centro-1940-ns\"";
     let names = |input: &jostle_io::Input| {
         let motion = input.ground_motion().expect("a motion");
-        let own = motion
+        let ground = motion
             .grounds
             .as_ref()
             .and_then(|grounds| grounds.own.first());
-        let vertical = own.and_then(|own| own.vertical.as_ref());
+        let vertical = ground.and_then(|ground| ground.vertical.as_ref());
         let across = motion.bearing.expect("across").across.expect("a motion");
         (
             motion.name,
             across.name,
-            vertical.map(|own| own.name.clone()),
+            vertical.map(|vertical| vertical.name.clone()),
         )
     };
     let (ns, artificial) = (

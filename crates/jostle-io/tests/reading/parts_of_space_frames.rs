@@ -43,8 +43,8 @@ fn refused(more: &str) -> String {
 
 fn section(frame: &SpaceFrame, place: SpacePlace) -> SpaceSection {
     let mut members = frame.members.iter();
-    let own = members.find(|own| own.place == place);
-    own.expect("a member").section
+    let member = members.find(|member| member.place == place);
+    member.expect("a member").section
 }
 
 const CORNER: SpacePlace = SpacePlace::Column {
@@ -55,10 +55,11 @@ const CORNER: SpacePlace = SpacePlace::Column {
 #[test]
 fn braces_stand_in_the_bays_that_are_named() {
     let names = |more: &str| -> Vec<String> {
-        let own = with(more);
-        own.diagonals
+        let frame = with(more);
+        frame
+            .diagonals
             .iter()
-            .map(|own| own.place.to_string())
+            .map(|diagonal| diagonal.place.to_string())
             .collect()
     };
     // The L has no bay from x = 2 on line y = 3.
@@ -84,9 +85,15 @@ fn braces_stand_in_the_bays_that_are_named() {
             "brace_y.2.3.1.down"
         ]
     );
-    for own in with(named).diagonals {
-        assert_eq!(own.place.line.expect("a line").along, PlanAxis::Y);
-        close(own.stiffness, 300e6 / 5_f64.hypot(3.2), 1e8, 1e-14, "EA/l");
+    for diagonal in with(named).diagonals {
+        assert_eq!(diagonal.place.line.expect("a line").along, PlanAxis::Y);
+        close(
+            diagonal.stiffness,
+            300e6 / 5_f64.hypot(3.2),
+            1e8,
+            1e-14,
+            "EA/l",
+        );
     }
     let yielding = with(
         "brace = [{ along = \"x\", y = 1, profile = \"HEB160\", hinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"355 MPa\" } }]\n",
@@ -100,8 +107,9 @@ fn braces_stand_in_the_bays_that_are_named() {
     );
     // Bays of 6 m and 5 m: the longer strut buckles first.
     let buckling = |index: usize| {
-        let own = yielding.diagonals[index].hysteresis.expect("it buckles");
-        own.backbone()
+        let hysteresis = yielding.diagonals[index].hysteresis.expect("it buckles");
+        hysteresis
+            .backbone()
             .side(jostle::hysteresis::Side::Negative)
             .yielding
             .force
@@ -163,9 +171,9 @@ fn profiles_bend_about_both_axes_and_do_not_crack() {
     };
     let strong = section(&swap("column = { profile = \"HEB300\" }"), CORNER);
     // Tables of ArcelorMittal: 25 170 and 8563 cm⁴, 149.1 cm², I_t = 185 cm⁴.
-    let due = [25_170e-8, 8563e-8].map(|own| 210e9 * own);
-    for (own, due) in strong.flexural_rigidity.into_iter().zip(due) {
-        close(own, due, due, 1e-3, "EI");
+    let due = [25_170e-8, 8563e-8].map(|inertia| 210e9 * inertia);
+    for (flexural_rigidity, due) in strong.flexural_rigidity.into_iter().zip(due) {
+        close(flexural_rigidity, due, due, 1e-3, "EI");
     }
     let axial = 210e9 * 149.1e-4;
     close(strong.axial_rigidity.expect("EA"), axial, axial, 1e-3, "EA");
@@ -191,30 +199,35 @@ fn profiles_bend_about_both_axes_and_do_not_crack() {
 
 #[test]
 fn rigid_ends_follow_the_sizes_that_meet() {
-    let own = with("rigid_ends = 0.5\n");
+    let frame = with("rigid_ends = 0.5\n");
     // Half of the half sizes: columns 0.5 and 0.4, beams 0.6 deep.
-    assert_eq!(own.rigid_zones[&[0, 0, 0]], [0.125, 0.1, 0.15]);
+    assert_eq!(frame.rigid_zones[&[0, 0, 0]], [0.125, 0.1, 0.15]);
     let beam = SpacePlace::BeamX {
         span: 0,
         line: 0,
         floor: 0,
     };
     close(
-        own.clear_length(beam, &[3.2, 3.2]),
+        frame.clear_length(beam, &[3.2, 3.2]),
         6.0 - 0.25,
         1.0,
         1e-14,
         "beam",
     );
     close(
-        own.clear_length(CORNER, &[3.2, 3.2]),
+        frame.clear_length(CORNER, &[3.2, 3.2]),
         3.2 - 0.15,
         1.0,
         1e-14,
         "column",
     );
-    let own = with("rigid_ends = { beams = \"0.2 m\", columns = \"0.3 m\" }\n");
-    assert!(own.rigid_zones.values().all(|own| *own == [0.2, 0.2, 0.3]));
+    let frame = with("rigid_ends = { beams = \"0.2 m\", columns = \"0.3 m\" }\n");
+    assert!(
+        frame
+            .rigid_zones
+            .values()
+            .all(|frame| *frame == [0.2, 0.2, 0.3])
+    );
     assert!(refused("rigid_ends = 2\n").contains("must lie between 0 and 1"));
 }
 
@@ -226,16 +239,16 @@ fn walls_of_space_frames_have_factors_and_rigidities() {
         storey: 0,
     };
     let of = |more: &str| {
-        let own = with(&format!(
+        let explicit = with(&format!(
             "wall = [{{ along = \"y\", x = 1, y = 2, length = \"3 m\", thickness = \"0.25 m\"{more} }}]\n"
         ));
-        section(&own, place)
+        section(&explicit, place)
     };
     let (whole, half) = (
         of(", stiffness_factor = 1"),
         of(", stiffness_factor = \"en1998\""),
     );
-    let [shear, halved] = [whole, half].map(|own| own.shear_rigidity.expect("it shears"));
+    let [shear, halved] = [whole, half].map(|section| section.shear_rigidity.expect("it shears"));
     for axis in [0, 1] {
         let due = 0.5 * whole.flexural_rigidity[axis];
         close(half.flexural_rigidity[axis], due, due, 1e-14, "EI");
@@ -256,22 +269,22 @@ fn walls_of_space_frames_have_factors_and_rigidities() {
 
 #[test]
 fn walls_are_wide_columns_with_arms() {
-    let own = with(
+    let frame = with(
         "wall = [{ along = \"x\", x = 1, y = 2, length = \"3 m\", thickness = \"0.25 m\" }]\nrigid_ends = 1\n",
     );
     let place = SpacePlace::Column {
         line: [0, 1],
         storey: 1,
     };
-    let wall = section(&own, place);
+    let wall = section(&frame, place);
     assert_eq!(wall.size, [3.0, 0.25]);
     let due = 0.5 * 30e9 * 0.25 * 27.0 / 12.0;
     close(wall.flexural_rigidity[0], due, due, 1e-14, "EI");
     assert!(wall.shear_rigidity.is_some());
-    assert!(section(&own, CORNER).shear_rigidity.is_none());
-    assert_eq!(own.rigid_zones[&[0, 0, 1]], [1.5, 0.125, 0.0]);
-    assert_eq!(own.rigid_zones[&[1, 0, 1]], [1.5, 0.125, 0.0]);
-    assert_eq!(own.rigid_zones[&[0, 0, 0]][2], 0.3);
+    assert!(section(&frame, CORNER).shear_rigidity.is_none());
+    assert_eq!(frame.rigid_zones[&[0, 0, 1]], [1.5, 0.125, 0.0]);
+    assert_eq!(frame.rigid_zones[&[1, 0, 1]], [1.5, 0.125, 0.0]);
+    assert_eq!(frame.rigid_zones[&[0, 0, 0]][2], 0.3);
 }
 
 /// Two equal faces along x, with all that can stand in them.
@@ -346,14 +359,14 @@ beam = {{ width = "0.3 m", depth = "0.5 m" }}
         model.analysis.step = Some(2e-3);
         runs::run(&model, &motion, None)
     });
-    let kinds = |own: &jostle::System| {
-        let all = own.buildings[0].discretization.diagonals.iter();
-        let places = all.map(|own| {
+    let kinds = |system: &jostle::System| {
+        let all = system.buildings[0].discretization.diagonals.iter();
+        let places = all.map(|diagonal| {
             (
-                own.place.kind,
-                own.place.storey,
-                own.place.bay,
-                own.place.rise.name(),
+                diagonal.place.kind,
+                diagonal.place.storey,
+                diagonal.place.bay,
+                diagonal.place.rise.name(),
             )
         });
         let mut places: Vec<_> = places
@@ -371,8 +384,8 @@ beam = {{ width = "0.3 m", depth = "0.5 m" }}
         1e-7,
         "energy",
     );
-    for (own, other) in a.1.peaks.floors(0).iter().zip(b.1.peaks.floors(0)) {
-        let [own, other] = [own, &other].map(|own| own.displacement().size());
-        close(own, other, other, 1e-9, "displacement");
+    for (floor, other) in a.1.peaks.floors(0).iter().zip(b.1.peaks.floors(0)) {
+        let [size, other] = [floor, &other].map(|floor| floor.displacement().size());
+        close(size, other, other, 1e-9, "displacement");
     }
 }

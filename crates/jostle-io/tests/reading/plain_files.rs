@@ -70,7 +70,7 @@ fn words<T, E: std::fmt::Display>(read: Result<T, E>) -> Result<(), String> {
 /// Every way in which a file is named, by the error that it gives.
 fn every_way(odd: &Path) -> Vec<(&'static str, String)> {
     let text = odd.to_str().expect("UTF-8").to_owned();
-    let model = |motion: &str, own: &str| TOWERS.replace("MOTION", motion).replace("OWN", own);
+    let model = |motion: &str, keys: &str| TOWERS.replace("MOTION", motion).replace("OWN", keys);
     let given = |matrices: &str| GIVEN.replace("MATRICES", matrices);
     let models = [
         ("record", model(&format!("record = \"{text}\""), "")),

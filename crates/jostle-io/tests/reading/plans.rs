@@ -272,16 +272,16 @@ fn friction_has_its_keys_and_limits() {
     ));
     let input = input.expect("a sound model");
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = |index: usize| {
+    let law = |index: usize| {
         system.contacts[index]
             .friction
             .as_ref()
             .expect("friction")
             .law
     };
-    let sum: f64 = (0..5).map(|index| own(index).stiffness).sum();
+    let sum: f64 = (0..5).map(|index| law(index).stiffness).sum();
     assert!((sum / 180e6 - 1.0).abs() < 1e-12, "{sum}");
-    assert_eq!(own(0).coefficient, 0.4);
+    assert_eq!(law(0).coefficient, 0.4);
     // Without a stiffness: 2(1 − ν)/(2 − ν) with ν = 0.2 of that against pressing.
     let input = read(&gap(
         "friction = 0.4\nlaw = \"linear\"\nstiffness = \"900 MN/m\"\n",
@@ -389,8 +389,8 @@ fn one_gap_stands_for_all_neighbours() {
         assert!(silent, "{:?}", input.warnings);
     }
     // A gap of its own counts more.
-    let own = "[[gap]]\nbetween = [\"C\", \"A\"]\nfriction = 0.5\n[[gap]]\n";
-    let input = read(&format!("{}{own}", around())).expect("a sound model");
+    let gap_tables = "[[gap]]\nbetween = [\"C\", \"A\"]\nfriction = 0.5\n[[gap]]\n";
+    let input = read(&format!("{}{gap_tables}", around())).expect("a sound model");
     let frictions: Vec<_> = input
         .model
         .gaps
@@ -498,19 +498,23 @@ base = { rotational_stiffness = "400 MN.m/rad" }
 #[test]
 fn frames_stand_where_the_file_says() {
     let input = read(FRAMES).expect("a sound model");
-    let own = tiers(&input, 0);
-    let names: Vec<&str> = own.frames.iter().map(|frame| &frame.name[..]).collect();
+    let structure = tiers(&input, 0);
+    let names: Vec<&str> = structure
+        .frames
+        .iter()
+        .map(|frame| &frame.name[..])
+        .collect();
     assert_eq!(names, ["1", "y.1", "y.2", "3"]);
-    assert!(own.storeys.is_empty());
-    assert_eq!(own.frames[2].at, [112.0, 50.0]);
-    assert_eq!(own.frames[2].direction, [0.0, 1.0]);
-    assert_eq!(own.frames[2].line_at(2), [112.0, 60.0]);
-    let askew = &own.frames[3];
+    assert!(structure.storeys.is_empty());
+    assert_eq!(structure.frames[2].at, [112.0, 50.0]);
+    assert_eq!(structure.frames[2].direction, [0.0, 1.0]);
+    assert_eq!(structure.frames[2].line_at(2), [112.0, 60.0]);
+    let askew = &structure.frames[3];
     assert!((askew.direction[0] - 0.75_f64.sqrt()).abs() < 1e-12);
     assert_eq!(askew.frame.storey_heights.len(), 2);
     assert_eq!(askew.base.rotational_stiffness, Some(4e8));
-    assert_eq!(own.frames[0].lines[0].as_deref(), Some("A1"));
-    assert_eq!(own.frames[0].lines[1], None);
+    assert_eq!(structure.frames[0].lines[0].as_deref(), Some("A1"));
+    assert_eq!(structure.frames[0].lines[1], None);
     // Without density the mass of the floors is all.
     let system = System::assemble(&input.model).expect("a sound model");
     assert_eq!(system.buildings[0].equations.total_mass(), 450e3);
@@ -644,7 +648,14 @@ fn walls_yield_by_storey_and_direction() {
     let found: Vec<(Option<usize>, usize, PlanAxis, PlanPoint)> = tiers
         .yielding
         .iter()
-        .map(|own| (own.element, own.storey, own.axis, own.at))
+        .map(|yielding| {
+            (
+                yielding.element,
+                yielding.storey,
+                yielding.axis,
+                yielding.at,
+            )
+        })
         .collect();
     let (core, wall) = ([104.0, 53.0], [118.0, 52.0]);
     assert_eq!(
@@ -675,13 +686,13 @@ fn walls_yield_by_storey_and_direction() {
     assert!((together.stiffness[0] / 110e6 - 1.0).abs() < 1e-12);
     assert!((together.stiffness[1] / 120e6 - 1.0).abs() < 1e-12);
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = &system.buildings[0];
-    assert_eq!(own.equations.springs.len(), 7);
-    let places: Vec<String> = own
+    let building = &system.buildings[0];
+    assert_eq!(building.equations.springs.len(), 7);
+    let places: Vec<String> = building
         .discretization
         .spring_places
         .iter()
-        .map(|place| place.named(&own.discretization.element_names, &[]))
+        .map(|place| place.named(&building.discretization.element_names, &[]))
         .collect();
     assert_eq!(places[0], "core, storey 1, x");
     assert_eq!(places[6], "element 2, storey 3, y");
@@ -698,15 +709,18 @@ fn storeys_in_plan_yield_along_both_directions_or_one() {
     };
     let both = "{ rule = \"bilinear\", yield = \"20 mm\", post_yield = 0.05 }";
     let input = read(&with(both)).expect("a sound model");
-    let own = tiers(&input, 0);
-    assert_eq!(own.yielding.len(), 2);
-    assert_eq!(own.storeys[0].stiffness[..2], [0.0, 0.0]);
-    assert_eq!(own.yielding[1].at, [11.0, 5.5]);
+    let structure = tiers(&input, 0);
+    assert_eq!(structure.yielding.len(), 2);
+    assert_eq!(structure.storeys[0].stiffness[..2], [0.0, 0.0]);
+    assert_eq!(structure.yielding[1].at, [11.0, 5.5]);
     let one = "{ rule = \"bilinear\", x = { yield = \"20 mm\", post_yield = 0.05 } }";
     let input = read(&with(one)).expect("a sound model");
-    let own = tiers(&input, 0);
-    assert_eq!((own.yielding.len(), own.yielding[0].axis), (1, PlanAxis::X));
-    assert_eq!(own.storeys[0].stiffness[..2], [0.0, 85e6]);
+    let structure = tiers(&input, 0);
+    assert_eq!(
+        (structure.yielding.len(), structure.yielding[0].axis),
+        (1, PlanAxis::X)
+    );
+    assert_eq!(structure.storeys[0].stiffness[..2], [0.0, 85e6]);
 }
 
 #[test]
@@ -756,12 +770,13 @@ fn frames_in_plan_yield_at_their_members() {
     let text = FRAMES.replacen("name = \"1\"", hinges, 1);
     let input = read(&text).unwrap_or_else(|error| panic!("{error}"));
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let frame = &tiers(&input, 0).frames[0];
     let count = 2 * frame.frame.storey_heights.len() * frame.column_lines();
-    assert_eq!(own.equations.springs.len(), count);
-    assert_eq!(own.discretization.spring_places.len(), count);
-    let first = own.discretization.spring_places[0].named(&[], &own.discretization.frames);
+    assert_eq!(building.equations.springs.len(), count);
+    assert_eq!(building.discretization.spring_places.len(), count);
+    let first =
+        building.discretization.spring_places[0].named(&[], &building.discretization.frames);
     assert!(first.starts_with("frame 1, column 1, storey 1"), "{first}");
     let from = text.replacen(
         "column = { yield = \"300 kN.m\", post_yield = 0.02 }",
@@ -780,14 +795,17 @@ fn frames_in_plan_yield_at_their_members() {
 fn a_base_differs_across_where_it_says_so() {
     let base = r#"base = { horizontal_stiffness = "900 MN/m", horizontal_damping = "20 MN.s/m", rotational_stiffness = "40 GN.m/rad", torsional_stiffness = "50 GN.m/rad", mass = "150 t", across = { rotational_stiffness = "25 GN.m/rad" } }"#;
     let input = read(&format!("{A}{base}\n")).expect("a sound model");
-    let own = &input.model.buildings[0].base;
-    let [along, across] = own.in_plan();
+    let plan_base = &input.model.buildings[0].base;
+    let [along, across] = plan_base.in_plan();
     assert_eq!(along.horizontal_stiffness, Some(9e8));
     assert_eq!(across.horizontal_stiffness, Some(9e8));
     assert_eq!(across.horizontal_damping, 2e7);
     assert_eq!(along.rotational_stiffness, Some(4e10));
     assert_eq!(across.rotational_stiffness, Some(2.5e10));
-    assert_eq!((own.torsional_stiffness, own.mass), (Some(5e10), 1.5e5));
+    assert_eq!(
+        (plan_base.torsional_stiffness, plan_base.mass),
+        (Some(5e10), 1.5e5)
+    );
     let one_way = base.replace("\"25 GN.m/rad\"", "\"rigid\"");
     let error = refusal(&format!("{A}{one_way}\n"));
     assert!(error.contains("rigid in one direction only"), "{error}");
@@ -801,16 +819,19 @@ fn a_foundation_stands_under_a_plan() {
     let soil = "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n";
     let plate = r#"foundation = { length = "18 m", width = "12 m", mass = "400 t", torsional_stiffness = "120 GN.m/rad", torsional_damping = "900 MN.m.s/rad" }"#;
     let input = read(&format!("{soil}{A}{plate}\n")).expect("a sound model");
-    let own = input.model.buildings[0].base.foundation;
-    let own = own.expect("it stands on one");
-    assert_eq!([own.length, own.width, own.mass], [18.0, 12.0, 4e5]);
-    assert_eq!(own.torsional_stiffness, Some(1.2e11));
-    assert_eq!(own.torsional_damping, Some(9e8));
-    let plain = "foundation = { length = \"18 m\", width = \"12 m\", mass = \"400 t\" }";
-    let own = read(&format!("{soil}{A}{plain}\n")).expect("a sound model");
-    let own = own.model.buildings[0].base.foundation.expect("one");
+    let foundation = input.model.buildings[0].base.foundation;
+    let foundation = foundation.expect("it stands on one");
     assert_eq!(
-        (own.torsional_stiffness, own.torsional_damping),
+        [foundation.length, foundation.width, foundation.mass],
+        [18.0, 12.0, 4e5]
+    );
+    assert_eq!(foundation.torsional_stiffness, Some(1.2e11));
+    assert_eq!(foundation.torsional_damping, Some(9e8));
+    let plain = "foundation = { length = \"18 m\", width = \"12 m\", mass = \"400 t\" }";
+    let input = read(&format!("{soil}{A}{plain}\n")).expect("a sound model");
+    let foundation = input.model.buildings[0].base.foundation.expect("one");
+    assert_eq!(
+        (foundation.torsional_stiffness, foundation.torsional_damping),
         (None, None)
     );
     let negative = plate.replace("\"900 MN.m.s/rad\"", "-1");
@@ -820,9 +841,9 @@ fn a_foundation_stands_under_a_plan() {
     let error = refusal(&format!("{soil}{A}{lifts}\n"));
     assert!(error.contains("write gravity = true"), "{error}");
     let more = lifts.replace(" }", ", springs_across = 3 }");
-    let own = read(&format!("{soil}{A}gravity = true\n{more}\n")).expect("a sound model");
-    let own = own.model.buildings[0].base.foundation.expect("one");
-    let uplift = own.uplift.expect("it lifts");
+    let sound_model = read(&format!("{soil}{A}gravity = true\n{more}\n")).expect("a sound model");
+    let foundation = sound_model.model.buildings[0].base.foundation.expect("one");
+    let uplift = foundation.uplift.expect("it lifts");
     assert_eq!((uplift.springs, uplift.springs_across), (5, Some(3)));
     let one = more.replace("springs_across = 3", "springs_across = 1");
     let error = refusal(&format!("{soil}{A}gravity = true\n{one}\n"));

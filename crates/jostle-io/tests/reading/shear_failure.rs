@@ -73,21 +73,21 @@ fn a_rule_gives_strength_and_slope() {
     assert_eq!([rows.len(), rows[0].len()], [2, 3]);
     // Storey 2: 3.2 m between axes, 2.6 m clear; a/d = 1300/460 = 2.82609. By hand as in the test of the rule:
     // 2.24165/2.82609 · 1.66865 · 200 000 = 264 717 N, ties 192 685 N.
-    let own = &rows[1][0];
-    let curve = own
+    let row = &rows[1][0];
+    let curve = row
         .spring
         .backbone()
         .side(jostle::hysteresis::Side::Positive);
     close(curve.yielding.force, 457_402.0);
     // δs = 0.03 + 0.0083776 − (457 402/230 000)/4.48330/40 − 0.199005/40 = 0.0223131; δa = 0.048494.
     // Kdeg = 457 402/(0.0261809 · 2.6) = 6.7196 MN/m; the column 12 · 30 GPa · 0.5⁴/12/3.2³ = 57.22 MN/m.
-    let falling = own.spring.falling_branch().expect("it fails");
+    let falling = row.spring.falling_branch().expect("it fails");
     close(falling.slope, 1.0 / (1.0 / 6.7196e6 + 1.0 / 57.220e6));
     assert_eq!(falling.residual, 0.0);
-    close(own.spring.backbone().initial(), 1e4 * 57.220e6);
+    close(row.spring.backbone().initial(), 1e4 * 57.220e6);
     // k falls from 1 at ductility 2 to 0.7 at 6.
-    close(own.by_ductility.at(4.0), 0.85 * 457_402.0);
-    assert_eq!(own.ends, ShearEnds::Foot);
+    close(row.by_ductility.at(4.0), 0.85 * 457_402.0);
+    assert_eq!(row.ends, ShearEnds::Foot);
     // GB 50010 does not fall with ductility.
     let rows = read(
         "shear_failure = { rule = \"gb50010\", slope = \"8 MN/m\", residual = 0.2 }",
@@ -95,11 +95,11 @@ fn a_rule_gives_strength_and_slope() {
         "\"common\"",
     );
     let rows = rows.unwrap_or_else(|error| panic!("{error}"));
-    let own = &rows[0][1];
-    assert!(own.by_ductility.points().is_empty());
-    let falling = own.spring.falling_branch().expect("it fails");
+    let row = &rows[0][1];
+    assert!(row.by_ductility.points().is_empty());
+    let falling = row.spring.falling_branch().expect("it fails");
     close(falling.slope, 1.0 / (1.0 / 8e6 + 64.0 / (12.0 * 1.5625e8)));
-    close(falling.residual, 0.2 * own.spring.backbone().yield_force());
+    close(falling.residual, 0.2 * row.spring.backbone().yield_force());
 }
 
 /// Light ties under 1000 kN: the axial limit comes before shear failure. The column loses its strength V over δa Ln − V/K.
@@ -109,23 +109,23 @@ fn columns_that_lose_their_axial_load_first_can_fall_to_the_axial_limit() {
     let ties = ", ties = \"d6 @ 400 mm\"";
     let rows = read(key, ties, "\"common\"");
     let rows = rows.unwrap_or_else(|error| panic!("{error}"));
-    let own = &rows[1][0];
-    let strength = own.spring.backbone().yield_force();
+    let row = &rows[1][0];
+    let strength = row.spring.backbone().yield_force();
     // Two legs d6, 56.549 mm²; core 500 − 2 (30 − 3) = 446 mm; 56.549 · 400 · 446/400 = 25 220.7 N.
     // tan 65° = 2.144507; 1 000 000/(25 220.7 · 2.144507) = 18.48906; 0.04 · 5.598911/20.63357 = 0.010854.
     let limit = 0.010_854 * 2.6;
     let column = 12.0 * 1.5625e8 / (3.2 * 3.2 * 3.2);
     let lost = limit - strength / column;
-    let falling = own.spring.falling_branch().expect("it fails");
+    let falling = row.spring.falling_branch().expect("it fails");
     // Column and spring together: the spring falls while the column unloads.
     close(1.0 / falling.slope, lost / strength + 1.0 / column);
     // A slope serves every column.
     let key = "shear_failure = { rule = \"sezen-moehle\", slope = \"8 MN/m\" }";
     let rows = read(key, ties, "\"common\"");
     let rows = rows.unwrap_or_else(|error| panic!("{error}"));
-    let own = &rows[1][0];
-    close(own.spring.backbone().yield_force(), strength);
-    let falling = own.spring.falling_branch().expect("it fails");
+    let row = &rows[1][0];
+    close(row.spring.backbone().yield_force(), strength);
+    let falling = row.spring.falling_branch().expect("it fails");
     close(1.0 / falling.slope, 1.0 / 8e6 + 1.0 / column);
 }
 
@@ -135,7 +135,7 @@ fn columns_struck_between_floors_have_a_spring_above_and_one_below() {
     let rows = read(key, "", STRUCK).unwrap_or_else(|error| panic!("{error}"));
     // B stands to the right: its floors at 3 and 6 m strike line 3 in both storeys.
     for (storey, row) in rows.iter().enumerate() {
-        let ends: Vec<ShearEnds> = row.iter().map(|own| own.ends).collect();
+        let ends: Vec<ShearEnds> = row.iter().map(|row| row.ends).collect();
         assert_eq!(
             ends,
             [ShearEnds::Foot, ShearEnds::Foot, ShearEnds::Both],

@@ -178,11 +178,17 @@ fn templates_in_us_units_are_nearly_the_same_models() {
         assert_eq!(us.1.contacts.len(), si.1.contacts.len(), "{name}");
         assert_eq!(us.1.links.len(), si.1.links.len(), "{name}");
         for (us, si) in us.1.buildings.iter().zip(&si.1.buildings) {
-            let (own, due) = (us.equations.total_mass(), si.equations.total_mass());
-            assert!((own / due - 1.0).abs() < 0.06, "{name}: {own} kg, {due} kg");
-            let [own, due] =
-                [us, si].map(|own| own.lateral_modes().next().expect("it sways").period());
-            assert!((own / due - 1.0).abs() < 0.08, "{name}: {own} s, {due} s");
+            let (us_mass, due) = (us.equations.total_mass(), si.equations.total_mass());
+            assert!(
+                (us_mass / due - 1.0).abs() < 0.06,
+                "{name}: {us_mass} kg, {due} kg"
+            );
+            let [period, due] =
+                [us, si].map(|system| system.lateral_modes().next().expect("it sways").period());
+            assert!(
+                (period / due - 1.0).abs() < 0.08,
+                "{name}: {period} s, {due} s"
+            );
         }
     }
 }

@@ -28,13 +28,13 @@ fn links(more: &str) -> Vec<Link> {
 fn soil_is_links_between_floors_and_the_base() {
     let linear = links("floors = [1, 2]\nstiffness = \"200 MN/m\"\ndashpot = \"2 MN.s/m\"\n");
     assert_eq!(linear.len(), 1);
-    let own = &linear[0];
+    let linear = &linear[0];
     assert_eq!(
-        (own.stiffness, own.damping, own.law),
+        (linear.stiffness, linear.damping, linear.law),
         (2e8, 2e6, LinkLaw::Linear)
     );
-    assert_eq!(own.between, [Some(0); 2]);
-    assert_eq!(own.floors, FloorPairs::listed(&[(0, 1), (0, 2)]));
+    assert_eq!(linear.between, [Some(0); 2]);
+    assert_eq!(linear.floors, FloorPairs::listed(&[(0, 1), (0, 2)]));
 
     let yields = links(
         "floors = 1\nstiffness = \"200 MN/m\"\nstrength = \"400 kN\"\npost_yield = 0.1\ndashpot = \"2 MN.s/m\"\n",
@@ -62,7 +62,7 @@ fn gaps_have_a_spring_on_either_side() {
         let sides = links(&format!(
             "floors = 2\nstiffness = \"200 MN/m\"\ngapping = true\n{more}"
         ));
-        let laws = sides.iter().map(|own| match own.law {
+        let laws = sides.iter().map(|side| match side.law {
             LinkLaw::Yielding(law) => law,
             other => panic!("{other:?}"),
         });

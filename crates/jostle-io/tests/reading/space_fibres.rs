@@ -65,22 +65,28 @@ fn parts_of_concrete_are_the_rectangle() {
         (", fibres = 20", [20, 16]),
         ("", [12, 10]),
     ] {
-        let own = frame(&of_fibres(asked));
-        assert_eq!(own.fibres.len(), 8);
-        let own = first(&own);
-        let concrete: Vec<&Fibre> = own.fibres.iter().filter(|own| is_concrete(own)).collect();
+        let frame = frame(&of_fibres(asked));
+        assert_eq!(frame.fibres.len(), 8);
+        let column = first(&frame);
+        let concrete: Vec<&Fibre> = column
+            .fibres
+            .iter()
+            .filter(|fibre| is_concrete(fibre))
+            .collect();
         assert_eq!(concrete.len(), counts[0] * counts[1], "{asked}");
         let sum = |of: &dyn Fn(&Fibre) -> f64| -> f64 {
-            let all = concrete.iter().map(|own| strength(own) / 20.1e6 * of(own));
+            let all = concrete
+                .iter()
+                .map(|concrete| strength(concrete) / 20.1e6 * of(concrete));
             all.sum()
         };
         let area = 0.5 * 0.4;
         assert!((sum(&|_| 1.0) / area - 1.0).abs() < 1e-12);
         for (axis, side) in [(0, 0.5_f64), (1, 0.4_f64)] {
-            assert!(sum(&|own| own.at[axis]).abs() < 1e-12);
+            assert!(sum(&|column| column.at[axis]).abs() < 1e-12);
             let cells = 1.0 - (counts[axis] as f64).powi(-2);
             let inertia = area * side * side / 12.0 * cells;
-            let second = sum(&|own| own.at[axis] * own.at[axis]);
+            let second = sum(&|fibre| fibre.at[axis] * fibre.at[axis]);
             assert!((second / inertia - 1.0).abs() < 1e-12, "{asked} {axis}");
         }
     }
@@ -89,20 +95,25 @@ fn parts_of_concrete_are_the_rectangle() {
 /// Twelve bars along all four faces, one in every corner: four along the faces across, two between them at the sides.
 #[test]
 fn every_bar_is_a_fibre() {
-    let own = frame(&of_fibres(""));
-    let own = first(&own);
-    assert_eq!((own.length, own.at_ends), (0.4, [true, true]));
-    let bars: Vec<&Fibre> = own.fibres.iter().filter(|own| !is_concrete(own)).collect();
+    let frame = frame(&of_fibres(""));
+    let column = first(&frame);
+    assert_eq!((column.length, column.at_ends), (0.4, [true, true]));
+    let bars: Vec<&Fibre> = column
+        .fibres
+        .iter()
+        .filter(|fibre| !is_concrete(fibre))
+        .collect();
     assert_eq!(bars.len(), 12);
     let (x, y) = (0.25 - 0.045, 0.2 - 0.045);
     let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
     for sign in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
-        let corner = |own: &&&Fibre| near(own.at[0], sign[0] * x) && near(own.at[1], sign[1] * y);
+        let corner =
+            |fibre: &&&Fibre| near(fibre.at[0], sign[0] * x) && near(fibre.at[1], sign[1] * y);
         assert_eq!(bars.iter().filter(corner).count(), 1);
     }
     let at_face = |axis: usize, to: f64| {
-        let own = bars.iter().filter(|own| near(own.at[axis].abs(), to));
-        own.count()
+        let bars = bars.iter().filter(|bar| near(bar.at[axis].abs(), to));
+        bars.count()
     };
     assert_eq!([at_face(0, x), at_face(1, y)], [8, 8]);
     let area = 0.25 * std::f64::consts::PI * 0.02 * 0.02;
@@ -116,31 +127,36 @@ fn every_bar_is_a_fibre() {
 fn ties_confine_the_core_on_all_sides() {
     let column = format!("{BARS}, ties = \"4 d10 @ 100 mm\"");
     let keys = "gravity = true\nhinges = { rule = \"fibre\", length = 0.4, fibres = [10, 8] }";
-    let own = frame(&model(&column, keys));
-    let concrete: Vec<&Fibre> = first(&own)
+    let frame = frame(&model(&column, keys));
+    let concrete: Vec<&Fibre> = first(&frame)
         .fibres
         .iter()
-        .filter(|own| is_concrete(own))
+        .filter(|fibre| is_concrete(fibre))
         .collect();
     // 30 mm lie outside of the ties, parts are 50 mm: the outer ones are both.
     assert_eq!(concrete.len(), 80 + 2 * 10 + 2 * 6);
-    let strain = |own: &Fibre| {
-        own.spring
+    let strain = |fibre: &Fibre| {
+        fibre
+            .spring
             .backbone()
             .side(Side::Negative)
             .yielding
             .deformation
     };
-    let middle = |own: &&&Fibre| own.at.iter().all(|at| (at - 0.025).abs() < 1e-12);
+    let middle = |fibre: &&&Fibre| fibre.at.iter().all(|at| (at - 0.025).abs() < 1e-12);
     let inner = concrete.iter().find(middle);
     let inner = *inner.expect("in the middle");
-    let confined = |own: &&&Fibre| (strain(own) / strain(inner) - 1.0).abs() < 1e-9;
+    let confined = |fibre: &&&Fibre| (strain(fibre) / strain(inner) - 1.0).abs() < 1e-9;
     let core: f64 = concrete
         .iter()
         .filter(confined)
-        .map(|own| strength(own))
+        .map(|concrete| strength(concrete))
         .sum();
-    let plain: f64 = concrete.iter().map(|own| strength(own)).sum::<f64>() - core;
+    let plain: f64 = concrete
+        .iter()
+        .map(|concrete| strength(concrete))
+        .sum::<f64>()
+        - core;
     let stress = strength(inner) / (0.05 * 0.05);
     assert!(stress > 1.1 * 20.1e6, "{stress}");
     let areas = [core / stress, plain / 20.1e6];
@@ -154,15 +170,15 @@ fn ties_confine_the_core_on_all_sides() {
 #[test]
 fn other_keys_are_those_of_plane_frames() {
     let keys = "gravity = true\nfloor_load = [\"300 kN\", \"200 kN\"]\nhinges = { rule = \"fibre\", length = \"paulay-priestley\", ends = \"base\", beam_rule = \"bilinear\", beam = { yield = \"200 kN.m\", post_yield = 0.01 } }";
-    let own = frame(&model(BARS, keys));
-    assert_eq!(own.floor_load, [300e3, 200e3]);
-    assert_eq!(own.fibres.len(), 4);
-    let column = first(&own);
+    let frame = frame(&model(BARS, keys));
+    assert_eq!(frame.floor_load, [300e3, 200e3]);
+    assert_eq!(frame.fibres.len(), 4);
+    let column = first(&frame);
     assert_eq!(column.at_ends, [true, false]);
     // 0.08 · 1.5 m + 0.022 · 20 mm · 400.
     assert!((column.length - 0.296).abs() < 1e-12);
-    for member in &own.members {
-        let rules = member.hinges.map(|own| own.map(|own| own.rule()));
+    for member in &frame.members {
+        let rules = member.hinges.map(|hinge| hinge.map(|frame| frame.rule()));
         let expected = match member.place {
             SpacePlace::Column { .. } => None,
             _ => Some(HysteresisRule::Bilinear),
@@ -176,14 +192,14 @@ fn other_keys_are_those_of_plane_frames() {
 fn concrete_of_bars_and_modulus_are_two_things() {
     let rigidity = |column: &str| {
         let keys = "gravity = true\nhinges = { rule = \"fibre\", length = 0.4 }";
-        let own = frame(&model(&format!("{BARS}{column}"), keys));
-        let strength: f64 = first(&own)
+        let frame = frame(&model(&format!("{BARS}{column}"), keys));
+        let strength: f64 = first(&frame)
             .fibres
             .iter()
-            .filter(|own| is_concrete(own))
+            .filter(|fibre| is_concrete(fibre))
             .map(strength)
             .sum();
-        let section = own.members[0].section;
+        let section = frame.members[0].section;
         [
             section.axial_rigidity.expect("it stretches") / 0.2,
             strength / 0.2,

@@ -42,21 +42,25 @@ fn frame(text: &str) -> SpaceFrame {
 }
 
 fn count(frame: &SpaceFrame, of: fn(SpacePlace) -> bool) -> usize {
-    frame.members.iter().filter(|own| of(own.place)).count()
+    frame
+        .members
+        .iter()
+        .filter(|member| of(member.place))
+        .count()
 }
 
 #[test]
 fn members_outside_of_the_plan_do_not_exist() {
-    let own = frame(L_SHAPE);
-    assert_eq!(own.at, [100.0, 50.0]);
-    let columns = count(&own, |place| matches!(place, SpacePlace::Column { .. }));
-    let along = count(&own, |place| matches!(place, SpacePlace::BeamX { .. }));
-    let across = count(&own, |place| matches!(place, SpacePlace::BeamY { .. }));
+    let frame = frame(L_SHAPE);
+    assert_eq!(frame.at, [100.0, 50.0]);
+    let columns = count(&frame, |place| matches!(place, SpacePlace::Column { .. }));
+    let along = count(&frame, |place| matches!(place, SpacePlace::BeamX { .. }));
+    let across = count(&frame, |place| matches!(place, SpacePlace::BeamY { .. }));
     assert_eq!([columns, along, across], [3 * 8, 3 * 5, 3 * 5]);
     let size = |line, storey| {
         let place = SpacePlace::Column { line, storey };
-        let own = own.members.iter().find(|member| member.place == place);
-        own.expect("a column").section.size
+        let member = frame.members.iter().find(|member| member.place == place);
+        member.expect("a column").section.size
     };
     assert_eq!(size([1, 0], 1), [0.7, 0.5]);
     assert_eq!(size([1, 0], 0), [0.5, 0.4]);
@@ -73,12 +77,12 @@ fn without_a_plan_it_is_that_of_the_outer_lines() {
         .find(|line| line.starts_with("plan"))
         .expect("there");
     let text = L_SHAPE.replace(plan, "");
-    let own = tiers(&text);
+    let structure = tiers(&text);
     assert_eq!(
-        own.floors[0].plan,
+        structure.floors[0].plan,
         [[100.0, 50.0], [111.0, 50.0], [111.0, 59.0], [100.0, 59.0]]
     );
-    assert_eq!(own.floors[0].centre, [105.5, 54.5]);
+    assert_eq!(structure.floors[0].centre, [105.5, 54.5]);
     let turned = tiers(&text.replace("storeys = 3", "storeys = 3\nangle = \"90 deg\""));
     let [x, y] = turned.floors[0].plan[1];
     assert!(
@@ -97,18 +101,22 @@ fn plans_from_the_ground_up_are_set_backs() {
         plan,
         "plan = [{ size = [\"11 m\", \"9 m\"] }, { size = [\"11 m\", \"9 m\"] }, { size = [\"6 m\", \"9 m\"] }]",
     );
-    let own = frame(&text);
-    let columns = count(&own, |place| matches!(place, SpacePlace::Column { .. }));
+    let space_frame = frame(&text);
+    let columns = count(&space_frame, |place| {
+        matches!(place, SpacePlace::Column { .. })
+    });
     assert_eq!(columns, 9 + 9 + 6);
 }
 
 #[test]
 fn members_may_be_omitted_and_rigid_or_sheared() {
     let text = format!("{L_SHAPE}\n[[building.column]]\nx = 3\ny = 1\nstoreys = 1\nomit = true\n");
-    let own = frame(&text);
-    let columns = count(&own, |place| matches!(place, SpacePlace::Column { .. }));
+    let space_frame = frame(&text);
+    let columns = count(&space_frame, |place| {
+        matches!(place, SpacePlace::Column { .. })
+    });
     assert_eq!(columns, 3 * 8 - 1);
-    assert!(own.members[0].section.axial_rigidity.is_some());
+    assert!(space_frame.members[0].section.axial_rigidity.is_some());
     let rigid =
         frame(&L_SHAPE.replace("mass =", "axial = \"rigid\"\nshear = \"flexible\"\nmass ="));
     assert!(rigid.members[0].section.axial_rigidity.is_none());
@@ -120,10 +128,10 @@ fn members_may_be_omitted_and_rigid_or_sheared() {
     let full = frame(L_SHAPE);
     let last = full.members.len() - 1;
     for (member, factor) in [(0, 0.7), (last, 0.35)] {
-        let [own, whole] = [&soft, &full].map(|frame| frame.members[member].section);
-        let ratio = own.flexural_rigidity[0] / whole.flexural_rigidity[0];
+        let [section, whole] = [&soft, &full].map(|frame| frame.members[member].section);
+        let ratio = section.flexural_rigidity[0] / whole.flexural_rigidity[0];
         assert!((ratio - factor).abs() < 1e-12);
-        let ratio = own.torsional_rigidity / whole.torsional_rigidity;
+        let ratio = section.torsional_rigidity / whole.torsional_rigidity;
         assert!((ratio - 0.1).abs() < 1e-12);
     }
 }
@@ -223,21 +231,24 @@ fn hinges_are_those_of_members_and_planes() {
             1,
         )
     };
-    let column = |own: &SpaceFrame, line: [usize; 2], storey: usize| {
+    let column = |frame: &SpaceFrame, line: [usize; 2], storey: usize| {
         let place = SpacePlace::Column { line, storey };
-        let mut members = own.members.iter();
-        let member = members.find(|own| own.place == place).expect("a column");
+        let mut members = frame.members.iter();
+        let member = members
+            .find(|member| member.place == place)
+            .expect("a column");
         (member.section, member.hinges)
     };
-    let yielding = |own: &Hysteresis| own.backbone().side(Side::Positive).yielding.force;
+    let yielding =
+        |hysteresis: &Hysteresis| hysteresis.backbone().side(Side::Positive).yielding.force;
     let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
     let moments = "{ yield = \"200 kN.m\", post_yield = 0.02 }";
-    let own = frame(&hinges(&format!("initial = 50, column = {moments}")));
-    for member in &own.members {
+    let space_frame = frame(&hinges(&format!("initial = 50, column = {moments}")));
+    for member in &space_frame.members {
         let is_column = matches!(member.place, SpacePlace::Column { .. });
         assert_eq!(member.may_yield(), is_column);
     }
-    let (section, both) = column(&own, [2, 0], 1);
+    let (section, both) = column(&space_frame, [2, 0], 1);
     for (plane, hinge) in both.iter().enumerate() {
         let hinge = hinge.as_ref().expect("a hinge");
         assert!(near(yielding(hinge), 200e3));
@@ -245,24 +256,24 @@ fn hinges_are_those_of_members_and_planes() {
         assert!(near(hinge.backbone().initial(), stiffness), "{stiffness}");
     }
     // What a plane does not say stands beside it; one plane alone leaves the other elastic.
-    let own = frame(&hinges(
+    let space_frame = frame(&hinges(
         "column = { post_yield = 0.02, x = { yield = \"200 kN.m\" }, y = { yield = \"90 kN.m\" } }",
     ));
-    let both = column(&own, [0, 0], 0)
+    let both = column(&space_frame, [0, 0], 0)
         .1
-        .map(|own| yielding(&own.expect("a hinge")));
+        .map(|column| yielding(&column.expect("a hinge")));
     assert!(near(both[0], 200e3) && near(both[1], 90e3), "{both:?}");
-    let own = frame(&hinges(
+    let space_frame = frame(&hinges(
         "column = { y = { yield = \"90 kN.m\", post_yield = 0.02 } }",
     ));
-    let [x, y] = column(&own, [0, 0], 0).1;
+    let [x, y] = column(&space_frame, [0, 0], 0).1;
     assert!(x.is_none() && y.is_some());
     // Storey by storey; places of their own.
     let storeys = hinges(&format!(
         "beam = [{moments}, {moments}, {{ yield = \"70 kN.m\", post_yield = 0.02 }}]"
     )) + "\n[[building.column]]\nsize = [\"0.7 m\", \"0.7 m\"]\nx = 1\ny = 1\nstoreys = 1\nhinge = { yield = \"900 kN.m\", post_yield = 0.01 }\n";
-    let own = frame(&storeys);
-    for member in &own.members {
+    let frame = frame(&storeys);
+    for member in &frame.members {
         match member.place {
             SpacePlace::Column { line, storey } => {
                 assert_eq!(member.may_yield(), line == [0, 0] && storey == 0);

@@ -267,10 +267,10 @@ fn impacts_with_friction_have_its_columns() {
     write_impacts_parquet(&path, &rough).expect("written");
     let rows = read(&path);
     for (name, value) in [("slip_speed_m_s", -0.2), ("tangential_impulse_n_s", 3e3)] {
-        let own = rows
+        let row = rows
             .iter()
             .flat_map(|row| row.iter().filter(|(n, _)| n == name));
-        let values: Vec<Field> = own.map(|(_, value)| value.clone()).collect();
+        let values: Vec<Field> = row.map(|(_, value)| value.clone()).collect();
         assert_eq!(
             values,
             [Field::Null, Field::Double(value), Field::Null],

@@ -342,7 +342,9 @@ fn cracking_that_counts_twice_is_found() {
             stated: &input.stated,
             results: None,
         });
-        let found = found.iter().filter(|own| own.text.contains("counts twice"));
+        let found = found
+            .iter()
+            .filter(|finding| finding.text.contains("counts twice"));
         found.count()
     };
     assert_eq!(twice("0.7", HINGES), 1);

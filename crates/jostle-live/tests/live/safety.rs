@@ -151,8 +151,8 @@ fn other_sites_are_refused() {
         assert_eq!(status(&live.socket(&more)), 403, "socket from {origin}");
     }
     assert_eq!(status(&live.socket("")), 403, "a socket from nowhere");
-    let own = format!("Origin: http://127.0.0.1:{}\r\n", live.port);
-    let answer = live.socket(&own);
+    let text = format!("Origin: http://127.0.0.1:{}\r\n", live.port);
+    let answer = live.socket(&text);
     assert_eq!(status(&answer), 101, "{answer}");
     // The example of RFC 6455, section 1.3.
     assert!(answer.contains("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="), "{answer}");

@@ -122,11 +122,11 @@ pub fn coherent_with(
     let made = spectra.iter().map(|spectrum| {
         let mut values = inverse(spectrum, length);
         values.truncate(n);
-        Accelerogram::new(h, values).map(|own| own.ending_with(end))
+        Accelerogram::new(h, values).map(|accelerogram| accelerogram.ending_with(end))
     });
     let made = made.collect::<Result<Vec<_>, _>>()?;
     let at = |place: &f64| {
-        let index = apart.iter().position(|own| own == place);
+        let index = apart.iter().position(|candidate| candidate == place);
         index.map_or_else(|| record.clone(), |index| made[index].clone())
     };
     Ok(places.iter().map(at).collect())

@@ -447,11 +447,14 @@ fn finish(motion: &Accelerogram, settings: &MatchSettings) -> Result<Accelerogra
             excess
         };
         let wavelet = Wavelet::new(h, n, period, h * at as f64);
-        let own = at
+        let ordinate = at
             .checked_sub(wavelet.range.start)
             .and_then(|i| wavelet.values.get(i));
-        let own = own.copied().filter(|own| *own > 0.1).unwrap_or(1.0);
-        wavelet.add(&mut values, -change * value.signum() / own);
+        let ordinate = ordinate
+            .copied()
+            .filter(|candidate| *candidate > 0.1)
+            .unwrap_or(1.0);
+        wavelet.add(&mut values, -change * value.signum() / ordinate);
     }
     Accelerogram::new(h, values)
 }

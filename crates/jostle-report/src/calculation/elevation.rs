@@ -86,9 +86,15 @@ pub(super) fn figure(page: &Page) -> Markup {
     } else {
         0.0
     };
-    let elevations = model.buildings.iter().map(|own| own.base.elevation);
+    let elevations = model
+        .buildings
+        .iter()
+        .map(|building| building.base.elevation);
     let low = elevations.fold(f64::INFINITY, f64::min);
-    let outlines = model.buildings.iter().map(|own| Outline::new(own, low));
+    let outlines = model
+        .buildings
+        .iter()
+        .map(|building| Outline::new(building, low));
     let outlines: Vec<Outline> = outlines.collect();
     let count = outlines.len() as f64;
     let wide: f64 = outlines.iter().map(Outline::width).sum();

@@ -43,7 +43,9 @@ pub enum TitleBlockPart {
 
 /// The title block below the title; nothing where the file has none.
 pub(crate) fn title_block(page: &Page) -> Markup {
-    let entries = page.calculation.map_or(&[][..], |own| &own.title_block);
+    let entries = page
+        .calculation
+        .map_or(&[][..], |calculation| &calculation.title_block);
     let name = |part| match part {
         TitleBlockPart::Project => message::project(),
         TitleBlockPart::Client => message::client(),

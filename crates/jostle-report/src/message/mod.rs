@@ -127,9 +127,9 @@ pub fn in_language<T>(language: &'static Messages, write: impl FnOnce() -> T) ->
 /// `text` with names of units in braces, `{kN}`, as they are called in a system of units.
 fn name_units(text: &str, units: Units) -> String {
     let mut named = text.to_owned();
-    for own in shown::ALL_SHOWN.iter().filter(|_| text.contains('{')) {
-        let name = format!("{{{}}}", own.si_name());
-        named = named.replace(&name, own.name_in(units));
+    for unit in shown::ALL_SHOWN.iter().filter(|_| text.contains('{')) {
+        let name = format!("{{{}}}", unit.si_name());
+        named = named.replace(&name, unit.name_in(units));
     }
     named
 }
@@ -170,11 +170,11 @@ pub fn for_scripts(script: &str) -> Markup {
     let units = script.split("unitOf(\"").skip(1);
     let units = units.filter_map(|after| Shown::named(after.split_once('"')?.0));
     let units: BTreeMap<&str, serde_json::Value> = units
-        .map(|own| {
-            let (name, factor) = (own.name(), own.of(1.0));
+        .map(|unit| {
+            let (name, factor) = (unit.name(), unit.of(1.0));
             let more =
-                serde_json::json!({ "name": name, "factor": factor, "least": own.decimals(0) });
-            (own.si_name(), more)
+                serde_json::json!({ "name": name, "factor": factor, "least": unit.decimals(0) });
+            (unit.si_name(), more)
         })
         .collect();
     html! {

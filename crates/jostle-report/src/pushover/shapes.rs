@@ -59,8 +59,8 @@ fn side_by_side(stick_model: &StickModel) -> Vec<f64> {
     }
     let mut offset = 0.0;
     for width in widths.values_mut() {
-        let own = std::mem::replace(width, offset);
-        offset += if own > 0.0 { own + APART } else { 0.0 };
+        let replace = std::mem::replace(width, offset);
+        offset += if replace > 0.0 { replace + APART } else { 0.0 };
     }
     nodes()
         .map(|(index, node)| widths[&stick_model.turn(index).elevation] + node.x)

@@ -62,14 +62,14 @@ fn no_page_has_a_text_of_its_own() {
     for (file, source) in pages() {
         let literals = rust_literals(&source);
         assert!(!source.contains("html!") || !literals.is_empty(), "{file}");
-        let own = literals.into_iter().filter(Literal::is_text);
-        found.extend(own.map(|literal| (file.clone(), literal)));
+        let literals = literals.into_iter().filter(Literal::is_text);
+        found.extend(literals.map(|literal| (file.clone(), literal)));
     }
     for (file, source) in scripts() {
-        let own = script_literals(&source)
+        let script_literals = script_literals(&source)
             .into_iter()
             .filter(Literal::is_text);
-        found.extend(own.map(|literal| (file.clone(), literal)));
+        found.extend(script_literals.map(|literal| (file.clone(), literal)));
     }
     found.retain(|(_, literal)| !NO_TEXT.contains(&literal.text.trim()));
     let lines: Vec<String> = found

@@ -162,8 +162,8 @@ fn levels_of_one_quantity_are_a_sequence_of_colours() {
             ..first.clone()
         })
         .collect();
-    let own = render_study(&page);
-    assert!(own.contains("--c:var(--c2)") && !own.contains("--high) 50%"));
+    let study = render_study(&page);
+    assert!(study.contains("--c:var(--c2)") && !study.contains("--high) 50%"));
     page.sections[0].charts[0].ordered = true;
     let ordered = render_study(&page);
     for (share, to, from) in [

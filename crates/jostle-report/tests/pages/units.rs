@@ -49,7 +49,7 @@ fn may_stay(text: &str) -> bool {
         number.starts_with(|c: char| c.is_ascii_uppercase())
             && number[1..].chars().all(|c| c.is_ascii_digit())
     });
-    finding || TYPED.iter().any(|own| text.contains(own))
+    finding || TYPED.iter().any(|phrase| text.contains(phrase))
 }
 
 /// Words of a page that are SI units.
@@ -106,7 +106,7 @@ fn scripts_have_the_units_of_their_page() {
         (&si["mm"]["name"], &si["mm"]["factor"]),
         (&"mm".into(), &1e3.into())
     );
-    for own in shown::ALL_SHOWN {
-        assert!(!own.name().contains("kip") && own.name() == own.si_name());
+    for unit in shown::ALL_SHOWN {
+        assert!(!unit.name().contains("kip") && unit.name() == unit.si_name());
     }
 }

@@ -25,12 +25,12 @@ fn describe_plate(text: &mut String, foundation: &Foundation) -> std::fmt::Resul
 /// The foundation of a building with a plan: springs and dashpots in both directions, and what they do to the fundamental modes.
 pub(super) fn describe_foundation_in_plan(
     text: &mut String,
-    own: &jostle::system::FoundationInPlan,
+    plan: &jostle::system::FoundationInPlan,
     mass: f64,
     bed: &[BedSpring],
 ) -> std::fmt::Result {
-    describe_plate(text, &own.foundation)?;
-    let springs = &own.springs;
+    describe_plate(text, &plan.foundation)?;
+    let springs = &plan.springs;
     let directions = [("along x", &springs.along), ("across", &springs.across)];
     for (direction, springs) in directions {
         let sway = match springs.sway_stiffness {
@@ -62,11 +62,11 @@ pub(super) fn describe_foundation_in_plan(
         writeln!(
             text,
             "  first period {direction} {:.3} s instead of {:.3} s on rigid ground ({:.3} times), damping {:.2} % instead of {:.2} %",
-            own.periods[axis],
-            own.fixed_periods[axis],
-            own.periods[axis] / own.fixed_periods[axis],
-            100.0 * own.damping[axis],
-            100.0 * own.fixed_damping[axis]
+            plan.periods[axis],
+            plan.fixed_periods[axis],
+            plan.periods[axis] / plan.fixed_periods[axis],
+            100.0 * plan.damping[axis],
+            100.0 * plan.fixed_damping[axis]
         )?;
     }
     let Some(last) = bed.last() else {
@@ -97,13 +97,13 @@ pub(super) fn describe_foundation_in_plan(
 /// Foundation, springs and dashpots of the soil, and what they do to the first mode.
 pub(super) fn describe_foundation(
     text: &mut String,
-    own: &jostle::system::FoundationPlace,
+    place: &jostle::system::FoundationPlace,
     mass: f64,
     bed: &[BedSpring],
 ) -> std::fmt::Result {
-    let (foundation, springs) = (&own.foundation, &own.springs);
+    let (foundation, springs) = (&place.foundation, &place.springs);
     describe_plate(text, foundation)?;
-    let sway = match own.sway {
+    let sway = match place.sway {
         Some(_) => format!(
             "sway {} and {}",
             prefixed(springs.sway_stiffness, "N/m", 3),
@@ -120,13 +120,13 @@ pub(super) fn describe_foundation(
     writeln!(
         text,
         "  first period {:.3} s instead of {:.3} s on rigid ground ({:.3} times), damping {:.2} % instead of {:.2} %",
-        own.period,
-        own.fixed_period,
-        own.period / own.fixed_period,
-        100.0 * own.damping,
-        100.0 * own.fixed_damping
+        place.period,
+        place.fixed_period,
+        place.period / place.fixed_period,
+        100.0 * place.damping,
+        100.0 * place.fixed_damping
     )?;
-    let Some(reach) = bed.last().map(|own| own.at) else {
+    let Some(reach) = bed.last().map(|bed| bed.at) else {
         return Ok(());
     };
     // The outermost spring lifts off where its shortening under the weight is used up, θ = W/(K_z b).

@@ -96,10 +96,10 @@ pub(super) fn walls(frame: &Frame) -> String {
     let lines = frame.line_positions();
     for (index, wall) in frame.walls.iter().enumerate() {
         let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
-        let at_foot = |own: &jostle::WallHinge| own.storey == wall.storeys[0] && !own.at_head;
+        let at_foot = |hinge: &jostle::WallHinge| hinge.storey == wall.storeys[0] && !hinge.at_head;
         let bends = match &wall.hinges[..] {
             [] => String::new(),
-            [own] if at_foot(own) => "at its foot".to_owned(),
+            [hinge] if at_foot(hinge) => "at its foot".to_owned(),
             all => format!("at {} storey ends", all.len()),
         };
         let yields = match (bends.as_str(), wall.shear) {
@@ -126,23 +126,23 @@ pub(super) fn walls(frame: &Frame) -> String {
         } else {
             ""
         };
-        let own = format!(
+        let text = format!(
             "{} long{}{yields}",
             HEIGHT.text(frame.clear_span(place), 3),
             rigidities(frame.beam(place[0], place[1]), beam.stiffness_factors)
         );
         match said.last_mut() {
             Some((bay, floors, known))
-                if *bay == beam.bay && *known == own && floors[1] + 1 == beam.floor =>
+                if *bay == beam.bay && *known == text && floors[1] + 1 == beam.floor =>
             {
                 floors[1] = beam.floor;
             }
-            _ => said.push((beam.bay, [beam.floor; 2], own)),
+            _ => said.push((beam.bay, [beam.floor; 2], text)),
         }
     }
-    for (bay, floors, own) in said {
+    for (bay, floors, words) in said {
         text += &format!(
-            "  coupling beams of bay {bay}, {}, {own}\n",
+            "  coupling beams of bay {bay}, {}, {words}\n",
             storeys(floors, "floor")
         );
     }
@@ -161,18 +161,24 @@ pub(super) fn space_walls(frame: &SpaceFrame) -> String {
         };
         let foot = wall.column(wall.storeys[0]);
         let mut members = frame.members.iter();
-        let Some(member) = members.find(|own| own.place == foot) else {
+        let Some(member) = members.find(|member| member.place == foot) else {
             continue;
         };
-        let (own, plane) = (&member.section, wall.along.index());
+        let (section, plane) = (&member.section, wall.along.index());
         let number = |name: &str, value: Option<f64>, unit: Shown| {
             value.map_or_else(String::new, |value| {
                 format!(", {name} {}", unit.text(value, 3))
             })
         };
-        let rigidities = number("EI", Some(own.flexural_rigidity[plane]), LARGE_RIGIDITY)
-            + &number("EA", own.axial_rigidity, LARGE_FORCE)
-            + &number("GA", own.shear_rigidity.map(|own| own[plane]), LARGE_FORCE);
+        let rigidities = number("EI", Some(section.flexural_rigidity[plane]), LARGE_RIGIDITY)
+            + &number("EA", section.axial_rigidity, LARGE_FORCE)
+            + &number(
+                "GA",
+                section
+                    .shear_rigidity
+                    .map(|shear_rigidity| shear_rigidity[plane]),
+                LARGE_FORCE,
+            );
         let _ = write!(
             text,
             "\n  wall {} along {} at x = {} {unit}, y = {} {unit}, {storeys}, {} {unit} long{rigidities}{}",
@@ -189,10 +195,10 @@ pub(super) fn space_walls(frame: &SpaceFrame) -> String {
 
 /// Braces and infill panels, as far as there are any.
 pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
-    let is_side = |own: &Diagonal| own.place.strut != StrutLine::Central;
+    let is_side = |diagonal: &Diagonal| diagonal.place.strut != StrutLine::Central;
     let count = |kind| {
-        let all = diagonals.iter().filter(|own| !is_side(own));
-        all.filter(|own| own.place.kind == kind).count()
+        let all = diagonals.iter().filter(|diagonal| !is_side(diagonal));
+        all.filter(|diagonal| diagonal.place.kind == kind).count()
     };
     let mut text = String::new();
     // A panel is two struts, or three times two.
@@ -204,13 +210,13 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
     }
     let laws = |kind| {
         let all = diagonals.iter();
-        let laws = all.filter(move |own| own.place.kind == kind);
-        laws.filter_map(|own| own.hysteresis)
+        let laws = all.filter(move |diagonal| diagonal.place.kind == kind);
+        laws.filter_map(|law| law.hysteresis)
     };
     let between = |laws: &[Hysteresis], value: &dyn Fn(&Hysteresis) -> f64| {
         let values = laws.iter().map(value);
-        let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], own| {
-            [f64::min(least, own), f64::max(most, own)]
+        let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], value| {
+            [f64::min(least, value), f64::max(most, value)]
         });
         if most - least < 5e-3 * most {
             format!("{most:.0}")
@@ -218,10 +224,10 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
             format!("{least:.0} to {most:.0}")
         }
     };
-    let pressed = |own: &Hysteresis| *own.backbone().side(Side::Negative);
+    let pressed = |hysteresis: &Hysteresis| *hysteresis.backbone().side(Side::Negative);
     let (force, stiffness) = (FORCE.name(), LARGE_STIFFNESS.name());
     let buckling: Vec<_> = laws(DiagonalKind::Brace)
-        .filter(|own| matches!(own.rule(), HysteresisRule::Buckling(_)))
+        .filter(|law| matches!(law.rule(), HysteresisRule::Buckling(_)))
         .collect();
     if !buckling.is_empty() {
         text += &format!(
@@ -232,7 +238,7 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
         );
     }
     let cracking: Vec<_> = laws(DiagonalKind::Infill)
-        .filter(|own| matches!(own.rule(), HysteresisRule::Pinched(_)))
+        .filter(|law| matches!(law.rule(), HysteresisRule::Pinched(_)))
         .collect();
     if !cracking.is_empty() {
         text += &format!(
@@ -245,23 +251,25 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
     }
     let mut panels = diagonals
         .iter()
-        .filter(|own| own.place.kind == DiagonalKind::Infill);
+        .filter(|diagonal| diagonal.place.kind == DiagonalKind::Infill);
     if panels.clone().any(is_side) {
         text += ", three struts each way";
     }
-    let offsets = panels.clone().map(|own| own.offsets[0].max(own.offsets[1]));
+    let offsets = panels
+        .clone()
+        .map(|panel| panel.offsets[0].max(panel.offsets[1]));
     let offset = offsets.fold(0.0, f64::max);
     if offset > 0.0 {
         text += &format!(", off the joints by up to {}", HEIGHT.text(offset, 2));
     }
-    if let Some(damage) = panels.find_map(|own| own.damage) {
+    if let Some(damage) = panels.find_map(|panel| panel.damage) {
         let drifts = damage.drifts.map(|drift| format!("{:.2}", 100.0 * drift));
         text += &format!(", damaged at drifts of {} %", drifts.join(" / "));
     }
-    let panels = diagonals.iter().filter_map(|own| own.across);
-    let accelerations = panels.map(|own| own.strength / own.surface_mass / STANDARD_GRAVITY);
-    let [least, most] = accelerations.fold([f64::INFINITY, 0.0], |[least, most], own| {
-        [f64::min(least, own), f64::max(most, own)]
+    let panels = diagonals.iter().filter_map(|diagonal| diagonal.across);
+    let accelerations = panels.map(|panel| panel.strength / panel.surface_mass / STANDARD_GRAVITY);
+    let [least, most] = accelerations.fold([f64::INFINITY, 0.0], |[least, most], acceleration| {
+        [f64::min(least, acceleration), f64::max(most, acceleration)]
     });
     if most > 0.0 {
         let range = match most - least < 5e-3 * most {
@@ -276,7 +284,7 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
 /// Rigid ends by joint, as far as there are any: of beams, and of columns \[m\].
 pub(super) fn rigid_ends(zones: impl Iterator<Item = [f64; 2]> + Clone) -> String {
     let [beams, columns] =
-        [0, 1].map(|side| zones.clone().map(|own| own[side]).fold(0.0, f64::max));
+        [0, 1].map(|side| zones.clone().map(|zone| zone[side]).fold(0.0, f64::max));
     match beams + columns > 0.0 {
         true => format!(
             ", rigid ends up to {} of beams and {} of columns",

@@ -62,15 +62,15 @@ fn fibres<'a>(
     first_of: &str,
     first: &ColumnFibres,
 ) -> String {
-    let ends = |own: &ColumnFibres| own.at_ends.into_iter().filter(|stands| *stands).count();
+    let ends = |fibres: &ColumnFibres| fibres.at_ends.into_iter().filter(|stands| *stands).count();
     let count: usize = all.map(ends).sum();
     let ([concrete, steel], layers) =
         first
             .fibres
             .iter()
-            .fold(([0.0; 2], 0), |(sums, layers), own| {
-                let force = own.spring.backbone().side(Side::Negative).yielding.force;
-                match own.spring.rule() {
+            .fold(([0.0; 2], 0), |(sums, layers), fibre| {
+                let force = fibre.spring.backbone().side(Side::Negative).yielding.force;
+                match fibre.spring.rule() {
                     HysteresisRule::Concrete(_) => ([sums[0] + force, sums[1]], layers + 1),
                     _ => ([sums[0], sums[1] + force], layers),
                 }
@@ -100,18 +100,27 @@ pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std
     if let Some(frame) = &tiers.space_frame {
         describe_space_hinges(text, frame)?;
     }
-    let mut elements: Vec<Option<usize>> = tiers.yielding.iter().map(|own| own.element).collect();
+    let mut elements: Vec<Option<usize>> = tiers
+        .yielding
+        .iter()
+        .map(|yielding| yielding.element)
+        .collect();
     elements.sort_unstable();
     elements.dedup();
     for element in elements {
         for axis in PlanAxis::BOTH {
-            let own: Vec<&PlanSpring> = tiers
+            let plan_springs: Vec<&PlanSpring> = tiers
                 .yielding
                 .iter()
-                .filter(|own| own.element == element && own.axis == axis)
+                .filter(|yielding| yielding.element == element && yielding.axis == axis)
                 .collect();
-            let Some(first) = own.first() else { continue };
-            let springs: Vec<&Hysteresis> = own.iter().map(|own| &own.hysteresis).collect();
+            let Some(first) = plan_springs.first() else {
+                continue;
+            };
+            let springs: Vec<&Hysteresis> = plan_springs
+                .iter()
+                .map(|yielding| &yielding.hysteresis)
+                .collect();
             let [cracking, yielding] = extents(&springs, Side::Positive);
             let what = match element {
                 None => "storeys".to_owned(),
@@ -145,7 +154,7 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         let all = frame.fibres.values();
         writeln!(text, "  {}", fibres(all, &place.to_string(), first))?;
     }
-    let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+    let is_column = |member: &SpaceMember| matches!(member.place, SpacePlace::Column { .. });
     let sorts = [
         ("columns, x,", true, 0),
         ("columns, y,", true, 1),
@@ -154,9 +163,9 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
     let moment = MOMENT.name();
     for (what, columns, plane) in sorts {
         let members = frame.members.iter();
-        let members = members.filter(|own| is_column(own) == columns);
+        let members = members.filter(|member| is_column(member) == columns);
         let springs: Vec<&Hysteresis> = members
-            .filter_map(|own| own.hinges[plane].as_ref())
+            .filter_map(|member| member.hinges[plane].as_ref())
             .collect();
         let Some(first) = springs.first() else {
             continue;

@@ -24,29 +24,29 @@ pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
     };
     let free = range(&|contact: &Contact| contact.free_restitution(&gap.law));
     match gap.law.kind {
-        LawKind::Dashpot(own) => format!(
+        LawKind::Dashpot(dashpot) => format!(
             "dashpot {}, the same as restitution {}; free masses rebound with {free}",
-            prefixed(own.damping, "N·s/m", 4),
+            prefixed(dashpot.damping, "N·s/m", 4),
             range(&|contact: &Contact| contact.equivalent_restitution(&gap.law)),
         ),
-        LawKind::BilinearGiven(own) => format!(
+        LawKind::BilinearGiven(kind) => format!(
             "{} beyond {}; the rebound of free masses depends on their speed",
-            prefixed(own.second_stiffness, "N/m", 4),
-            LENGTH.text(own.yield_indentation, 1)
+            prefixed(kind.second_stiffness, "N/m", 4),
+            LENGTH.text(kind.yield_indentation, 1)
         ),
-        LawKind::Crushing(own) => format!(
+        LawKind::Crushing(crushing) => format!(
             "crushes from {} on, with {} of its stiffness there, and stays crushed",
-            FORCE.text(own.force, 1),
-            own.hardening
+            FORCE.text(crushing.force, 1),
+            crushing.hardening
         ),
-        LawKind::Formula(own) => {
+        LawKind::Formula(formula) => {
             let rebound = range(&|contact: &Contact| {
                 let [left, right] = contact.ports.masses();
                 let collision = FreeCollision::new(&contact.law, left, right, SPEED);
                 Some(collision.realised_restitution())
             });
             format!(
-                "F = {own}; at {} free masses rebound with {rebound}",
+                "F = {formula}; at {} free masses rebound with {rebound}",
                 shown::SPEED.text(SPEED, 1)
             )
         }

@@ -20,24 +20,24 @@ pub(super) fn describe_grounds(
         return Ok(());
     };
     writeln!(text, "{}", styled(BOLD, "Grounds"))?;
-    for (index, own) in grounds.own.iter().enumerate() {
-        let record = own.motion.as_ref().map_or(String::new(), |own| {
+    for (index, ground) in grounds.own.iter().enumerate() {
+        let record = ground.motion.as_ref().map_or(String::new(), |motion| {
             format!(
                 ", own motion with a peak of {}",
-                ACCELERATION.text(own.peak(), 3)
+                ACCELERATION.text(motion.peak(), 3)
             )
         });
-        let vertical = own.vertical.as_ref().map_or(String::new(), |own| {
+        let vertical = ground.vertical.as_ref().map_or(String::new(), |vertical| {
             format!(
                 ", vertical with a peak of {}",
-                ACCELERATION.text(own.peak(), 3)
+                ACCELERATION.text(vertical.peak(), 3)
             )
         });
         writeln!(
             text,
             "  {}: the motion arrives after {} ms{record}{vertical}",
             system.side_name(Some(index)),
-            decimals(1e3 * own.arrival, 1)
+            decimals(1e3 * ground.arrival, 1)
         )?;
     }
     writeln!(text)

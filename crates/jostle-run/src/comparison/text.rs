@@ -61,10 +61,10 @@ impl Comparison {
                 .columns
                 .iter()
                 .map(|column| column.measured_name.chars().count());
-            let own = measured.max().unwrap_or(0).max(8);
+            let counts = measured.max().unwrap_or(0).max(8);
             let _ = writeln!(
                 text,
-                "  {:<own$}  {:<width$}  {:>11}  {:>11}  {:>6}  {:>11}  {:>10}",
+                "  {:<counts$}  {:<width$}  {:>11}  {:>11}  {:>6}  {:>11}  {:>10}",
                 "measured", "computed", "peak", "peak", "ratio", "correlation", "difference"
             );
             for column in &self.columns {
@@ -75,7 +75,7 @@ impl Comparison {
                 let difference = score.rms_difference.map(|value| 100.0 * value);
                 let _ = writeln!(
                     text,
-                    "  {:<own$}  {:<width$}  {:>11}  {:>11}  {:>6}  {:>11}  {:>10}",
+                    "  {:<counts$}  {:<width$}  {:>11}  {:>11}  {:>6}  {:>11}  {:>10}",
                     column.measured_name,
                     column.computed_name,
                     format!("{} {}", four(score.peak_measured), column.unit),

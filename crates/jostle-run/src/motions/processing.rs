@@ -81,7 +81,8 @@ impl Processing {
             motion = motion.resampled(step).map_err(wrong)?;
         }
         if self.pad_before.is_some() || self.pad_after.is_some() {
-            let [before, after] = [self.pad_before, self.pad_after].map(|own| own.unwrap_or(0.0));
+            let [before, after] =
+                [self.pad_before, self.pad_after].map(|duration| duration.unwrap_or(0.0));
             motion = motion.padded(before, after).map_err(wrong)?;
         }
         if self.at_rest {

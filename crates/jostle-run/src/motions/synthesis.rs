@@ -57,7 +57,7 @@ impl SpectrumMatch {
         let step = self
             .record
             .as_ref()
-            .map_or(self.step, |own| own.motion.step());
+            .map_or(self.step, |record| record.motion.step());
         let usual = [0.05_f64.max(4.0 * step), 6.0_f64.min(target.range()[1])];
         let matching = MatchSettings {
             periods: self.periods.unwrap_or(usual),
@@ -66,7 +66,7 @@ impl SpectrumMatch {
             peak: self.peak.or_else(|| target.peak_ground_acceleration()),
         };
         let matched = match &self.record {
-            Some(own) => match_spectrum(&own.motion, target, &matching),
+            Some(record) => match_spectrum(&record.motion, target, &matching),
             None => spectrum_compatible(
                 target,
                 &SineSettings {
@@ -79,10 +79,10 @@ impl SpectrumMatch {
         }
         .map_err(wrong)?;
         let name = match &self.record {
-            Some(own) => format!("{} matched to {}", own.name, target.name()),
+            Some(record) => format!("{} matched to {}", record.name, target.name()),
             None => format!("sines of seed {} matched to {}", self.seed, target.name()),
         };
-        let before = self.record.as_ref().map(|own| measures(&own.motion));
+        let before = self.record.as_ref().map(|record| measures(&record.motion));
         Ok(Synthesis {
             name,
             after: measures(&matched.motion).map_err(wrong)?,

@@ -21,7 +21,7 @@ fn opened(input: Input) -> Opened {
 }
 
 fn is_found(found: &[Finding], name: &str) -> bool {
-    found.iter().any(|own| own.name == name)
+    found.iter().any(|finding| finding.name == name)
 }
 
 /// Findings of a model without a motion.
@@ -30,14 +30,14 @@ fn of_model(text: &str) -> Vec<Finding> {
 }
 
 /// One storey or more on springs.
-fn towers(own: &str) -> String {
-    format!("[[building]]\nname = \"A\"\nkind = \"shear\"\n{own}")
+fn towers(keys: &str) -> String {
+    format!("[[building]]\nname = \"A\"\nkind = \"shear\"\n{keys}")
 }
 
 /// A frame of one storey without mass of its columns.
-fn frame(own: &str) -> String {
+fn frame(keys: &str) -> String {
     format!(
-        "[[building]]\nname = \"A\"\nstorey_height = \"3 m\"\nconcrete = \"C30\"\ndensity = \"0 kg/m3\"\n{own}"
+        "[[building]]\nname = \"A\"\nstorey_height = \"3 m\"\nconcrete = \"C30\"\ndensity = \"0 kg/m3\"\n{keys}"
     )
 }
 
@@ -45,15 +45,15 @@ const SECTIONS: &str = "column = { width = \"400 mm\", depth = \"400 mm\" }\nbea
 
 /// Two shear buildings with a gap.
 fn pair(gap: &str) -> String {
-    let own = |name: &str, mass: u32, stiffness: u32| {
+    let tower = |name: &str, mass: u32, stiffness: u32| {
         format!(
             "[[building]]\nname = \"{name}\"\nkind = \"shear\"\nstoreys = 2\nstorey_height = \"3 m\"\nmass = \"{mass} t\"\nstiffness = \"{stiffness} MN/m\"\n"
         )
     };
     format!(
         "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\n{gap}\n",
-        own("A", 40, 60),
-        own("B", 60, 70)
+        tower("A", 40, 60),
+        tower("B", 60, 70)
     )
 }
 
@@ -95,15 +95,15 @@ fn models() -> Vec<(&'static str, String, String)> {
         ))
     };
     let struck = |axial: &str| {
-        let own = |name: &str| {
+        let building = |name: &str| {
             format!(
                 "[[building]]\nname = \"{name}\"\nconcrete = \"C30\"\nstoreys = 1\nstorey_height = \"3 m\"\nspans = [\"6 m\", \"6 m\"]\n{SECTIONS}beam_mass = \"5 t/m\"\naxial = {axial}\n"
             )
         };
         format!(
             "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"50 mm\"\n",
-            own("A"),
-            own("B")
+            building("A"),
+            building("B")
         )
     };
     let stiff = |value: &str, law: &str| {
@@ -255,7 +255,7 @@ fn records_trip_their_checks() {
     assert!(!is_found(&with(&cut(955.0), 3), "cut-record"));
     assert!(is_found(&with(&cut(945.0), 3), "cut-record"));
     let half = with(&cut(495.0), 3);
-    let half = half.iter().find(|own| own.name == "cut-record");
+    let half = half.iter().find(|half| half.name == "cut-record");
     assert_eq!(half.map(|own| own.grade), Some(Grade::Warning));
     let scaled = |scale: f64| GroundMotion {
         scale,
@@ -640,9 +640,9 @@ fn results_trip_their_checks_and_others_just_do_not() {
     let all = results();
     for (name, change, inside, outside) in &all {
         let changed = |value: f64| {
-            let mut own = summary.clone();
-            change(&mut own, value);
-            found(&own)
+            let mut summary = summary.clone();
+            change(&mut summary, value);
+            found(&summary)
         };
         assert!(
             !is_found(&changed(*inside), name),
@@ -663,9 +663,12 @@ fn results_trip_their_checks_and_others_just_do_not() {
         assert!(is_tested, "{} has no model that trips it", check.name);
         assert!(!check.remedy.is_empty() && !check.limits.is_empty());
         let of_the_authors = |source: &&&str| source.ends_with(JUDGEMENT);
-        let published = check.sources.iter().filter(|own| !of_the_authors(own));
+        let published = check
+            .sources
+            .iter()
+            .filter(|source| !of_the_authors(source));
         let agreed =
-            published.clone().count() >= 2 && published.clone().all(|own| *own != FROM_MODEL);
+            published.clone().count() >= 2 && published.clone().all(|source| *source != FROM_MODEL);
         let alone = [&[JUDGEMENT][..], &[FROM_MODEL]].contains(&check.sources);
         assert!(agreed || alone, "{}: {:?}", check.name, check.sources);
     }
@@ -685,18 +688,18 @@ fn hinges_of_a_quiet_frame_keep_their_axial_force() {
         );
         let (prepared, summary) = run(sound(&text), false);
         let quiet = |scale: f64| {
-            let mut own = summary.clone();
-            for end in own.buildings[0]
+            let mut summary = summary.clone();
+            for end in summary.buildings[0]
                 .members
                 .iter_mut()
-                .flat_map(|own| &mut own.ends)
+                .flat_map(|member| &mut member.ends)
             {
                 // The force of weight is the middle of this run.
                 let middle = 0.5 * (end.axial_max_n + end.axial_min_n);
                 end.axial_max_n = middle + scale * (end.axial_max_n - middle);
                 end.axial_min_n = middle + scale * (end.axial_min_n - middle);
             }
-            own
+            summary
         };
         let codes = CodeInputs {
             shown: vec![Code::En1998],
@@ -721,7 +724,7 @@ fn hinges_of_a_quiet_frame_keep_their_axial_force() {
 fn findings_are_sorted_and_can_be_silenced() {
     let text = |silence: &str| format!("{TOUCHING}[report]\nsilence = {silence}\n");
     let (_, summary) = run(sound(TOUCHING), false);
-    let grades: Vec<Grade> = summary.checks.iter().map(|own| own.grade).collect();
+    let grades: Vec<Grade> = summary.checks.iter().map(|check| check.grade).collect();
     assert!(grades.is_sorted_by(|a, b| a >= b), "{grades:?}");
     assert!(is_found(&summary.checks, "records"), "{:?}", summary.checks);
     for silence in ["[\"A12\"]", "\"records\"", "[\"a12\", \"near-miss\"]"] {
@@ -739,7 +742,7 @@ fn findings_are_sorted_and_can_be_silenced() {
 fn shown(summary: &Summary) -> Vec<&Finding> {
     let checks = summary.checks.iter();
     checks
-        .filter(|own| own.grade >= Grade::Note && own.name != "near-miss")
+        .filter(|check| check.grade >= Grade::Note && check.name != "near-miss")
         .collect()
 }
 
@@ -748,7 +751,7 @@ fn too_much(name: &str, input: Input) -> Option<String> {
     let (_, summary) = run(input, false);
     let found = shown(&summary)
         .into_iter()
-        .map(|own| format!("{} {}", own.id, own.text));
+        .map(|finding| format!("{} {}", finding.id, finding.text));
     let found: Vec<String> = found.collect();
     (found.len() > 1).then(|| format!("{name}:\n  {}", found.join("\n  ")))
 }
@@ -756,13 +759,13 @@ fn too_much(name: &str, input: Input) -> Option<String> {
 /// The same of a model with its own motion, before it runs.
 fn too_much_at_rest(name: &str, input: &Input) -> Option<String> {
     let opened = opened(input.clone());
-    let own = input.records().is_empty() && input.motion.is_some();
-    let motion = own.then(|| opened.plan().unwrap_or_else(|error| panic!("{error}")).0);
+    let without_records = input.records().is_empty() && input.motion.is_some();
+    let motion = without_records.then(|| opened.plan().unwrap_or_else(|error| panic!("{error}")).0);
     let found = opened.findings(motion.as_ref());
     let found: Vec<String> = found
         .into_iter()
-        .filter(|own| own.grade >= Grade::Note)
-        .map(|own| format!("{} {}", own.id, own.text))
+        .filter(|candidate| candidate.grade >= Grade::Note)
+        .map(|finding| format!("{} {}", finding.id, finding.text))
         .collect();
     (found.len() > 1).then(|| format!("{name}, at rest:\n  {}", found.join("\n  ")))
 }
@@ -794,7 +797,9 @@ fn pairs_pound_and_raise_at_most_one_note() {
             assert!(gap.impact_count > 0, "{name}: {:?}", gap.between);
         }
         assert_eq!(summary.warnings, Vec::<String>::new(), "{name}");
-        let found = shown(&summary).into_iter().map(|own| own.text.clone());
+        let found = shown(&summary)
+            .into_iter()
+            .map(|finding| finding.text.clone());
         let found: Vec<String> = found.collect();
         if found.len() > 1 {
             loud.push(format!("{name}:\n  {}", found.join("\n  ")));
@@ -919,8 +924,9 @@ fn templates_take_the_stiffness_of_the_advice() {
         let gaps = &opened.input.model.gaps;
         assert!(!gaps.is_empty());
         for (index, gap) in gaps.iter().enumerate() {
-            let own = opened.system.contacts.iter().filter(|c| c.gap == index);
-            let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
+            let contacts = opened.system.contacts.iter().filter(|c| c.gap == index);
+            let heaviest =
+                contacts.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
             let masses = heaviest.expect("they touch").struck_masses();
             let range = advised_range(gap.law.kind, [SlabMaterial::default(); 2], masses);
             let ratio = gap.law.stiffness / range.expect("a range").value;

@@ -56,8 +56,8 @@ fn rules_follow_the_direction_in_which_buildings_meet() {
         along.periods_s
     );
     let of = |rules: &[jostle_run::RuleGap], name: &str| {
-        let own = rules.iter().find(|rule| rule.rule == name);
-        own.expect("the rule").gap_m
+        let rule = rules.iter().find(|rule| rule.rule == name);
+        rule.expect("the rule").gap_m
     };
     for rule in ["ABS", "SRSS", "DDC"] {
         let [a, b] = [of(&along.rules, rule), of(&across.rules, rule)];
@@ -72,7 +72,7 @@ fn outcomes_of_rules_are_those_of_both_signs() {
     let motion = input
         .ground_motion()
         .unwrap_or_else(|error| panic!("{error}"));
-    let [own, other] = [motion.clone(), motion.reversed()].map(|motion| {
+    let [critical_gap, other] = [motion.clone(), motion.reversed()].map(|motion| {
         let settings = GapSettings {
             tolerance: 1e-5,
             ..GapSettings::default()
@@ -80,9 +80,9 @@ fn outcomes_of_rules_are_those_of_both_signs() {
         let found = critical_gaps(&input.model, &motion, &settings, &|| false);
         found.unwrap_or_else(|error| panic!("{error}")).remove(0)
     });
-    let needed = own.gap_m.max(other.gap_m);
+    let needed = critical_gap.gap_m.max(other.gap_m);
     let mut differ = false;
-    for (rule, reversed) in own.rules.iter().zip(&other.rules) {
+    for (rule, reversed) in critical_gap.rules.iter().zip(&other.rules) {
         assert_eq!(rule.reversed_impact_count, reversed.impact_count);
         assert_eq!(rule.reversed_peak_force_n, reversed.peak_force_n);
         let ratio = rule.ratio_of_both_signs.expect("a gap is needed");

@@ -30,13 +30,13 @@ fn closing_beyond_the_width_is_indentation() {
         let summary = ran.summary();
         let gap = &summary.gaps[0];
         assert!(gap.impact_count > 0);
-        let own = ran
+        let widths = ran
             .prepared
             .system
             .contacts
             .iter()
             .map(|contact| contact.width);
-        let widest = own.fold(0.0, f64::max);
+        let widest = widths.fold(0.0, f64::max);
         assert_eq!(widest > 2.0 * gap.width_m, widens, "{widest} m");
         let mut deepest = 0.0_f64;
         for contact in &gap.contacts {

@@ -100,8 +100,8 @@ fn bounds_are_runs_with_properties_multiplied_by_hand() {
             [linear(0.9), linear(1.25)],
         ),
     ];
-    for (own, bounds, ends) in cases {
-        let summary = run(&model(&format!("{own}, bounds = {{ {bounds} }}"), ""));
+    for (bearings, bounds, ends) in cases {
+        let summary = run(&model(&format!("{bearings}, bounds = {{ {bounds} }}"), ""));
         let found = summary.isolation_bounds.as_ref().expect("bounds were run");
         let building = &found.buildings[0];
         let found: [Bounded; 6] = [
@@ -113,16 +113,16 @@ fn bounds_are_runs_with_properties_multiplied_by_hand() {
             building.storey_shear_n,
         ];
         let by_hand = ends.map(|text| peaks(&run(&model(&text, ""))));
-        let nominal = peaks(&run(&model(&own, "")));
+        let nominal = peaks(&run(&model(&bearings, "")));
         assert!(nominal[3] > 0.0, "the mat touches the wall");
-        for (index, own) in found.iter().enumerate() {
+        for (index, range) in found.iter().enumerate() {
             let near = |value: f64, due: f64| (value - due).abs() <= 1e-12 * due;
             let [lower, upper] = by_hand.map(|run| run[index]);
-            assert!(near(own.nominal, nominal[index]), "{bounds}: {own:?}");
-            assert!(near(own.lower, lower), "{bounds}: {own:?} {lower}");
-            assert!(near(own.upper, upper), "{bounds}: {own:?} {upper}");
-            let greatest = own.nominal.max(own.lower).max(own.upper);
-            assert!(own.envelope == greatest && own.lower != own.upper);
+            assert!(near(range.nominal, nominal[index]), "{bounds}: {range:?}");
+            assert!(near(range.lower, lower), "{bounds}: {range:?} {lower}");
+            assert!(near(range.upper, upper), "{bounds}: {range:?} {upper}");
+            let greatest = range.nominal.max(range.lower).max(range.upper);
+            assert!(range.envelope == greatest && range.lower != range.upper);
         }
     }
 }
@@ -130,21 +130,21 @@ fn bounds_are_runs_with_properties_multiplied_by_hand() {
 /// A stroke that only a bound exceeds is beyond the limit.
 #[test]
 fn the_limit_of_bearings_holds_at_the_bounds_too() {
-    let own = format!(
+    let text = format!(
         "{}, bounds = {{ lower = 0.7, upper = 1.3 }}",
         lead(1.0, 1.0)
     );
-    let summary = run(&model(&own, ""));
+    let summary = run(&model(&text, ""));
     let stroke = summary.isolation_bounds.expect("run").buildings[0].stroke_m;
     let stroke = stroke.expect("bearings");
     assert!(stroke.envelope > stroke.nominal);
-    let at = |limit: f64| run(&model(&own, &format!("limit = {limit}, ")));
+    let at = |limit: f64| run(&model(&text, &format!("limit = {limit}, ")));
     let between = 0.5 * (stroke.nominal + stroke.envelope);
     let is_found = |summary: &Summary| {
         summary
             .checks
             .iter()
-            .any(|own| own.name == "bearing-stroke")
+            .any(|check| check.name == "bearing-stroke")
     };
     assert!(is_found(&at(between)));
     assert!(!is_found(&at(1.01 * stroke.envelope)));

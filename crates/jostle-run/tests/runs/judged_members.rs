@@ -29,7 +29,7 @@ fn strains_of_fibres_are_said_and_drawn() {
     let ends: &[FibreSummary] = &summary.buildings[0].sections;
     let spalled: Vec<&FibreSummary> = ends
         .iter()
-        .filter(|own| own.limits[0].passed_s.is_some())
+        .filter(|end| end.limits[0].passed_s.is_some())
         .collect();
     assert!(!spalled.is_empty());
     let text = summary_text(&summary, &ran.prepared.input);
@@ -79,15 +79,15 @@ fn panels_are_counted_by_their_damage() {
     let summary = ran.summary();
     let building = &summary.buildings[0];
     let panels = building.damaged_panels();
-    let names: Vec<&str> = panels.iter().map(|own| &own.name[..]).collect();
+    let names: Vec<&str> = panels.iter().map(|panel| &panel.name[..]).collect();
     assert_eq!(names, ["P.infill.1.1", "P.infill.1.2"]);
     assert_eq!(building.parts.len(), 12);
     for panel in &panels {
         let struts = building.parts.iter();
         let struts: Vec<&PartSummary> = struts
-            .filter(|own| own.name.starts_with(&panel.name))
+            .filter(|strut| strut.name.starts_with(&panel.name))
             .collect();
-        let drifts = struts.iter().filter_map(|own| own.drift);
+        let drifts = struts.iter().filter_map(|strut| strut.drift);
         assert_eq!(drifts.fold(0.0, f64::max), panel.drift);
         // Columns hardly stretch: the drift of the bay is that of the storey.
         let storey = building.floors[0].response.storey_drift_peak;

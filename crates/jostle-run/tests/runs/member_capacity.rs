@@ -145,7 +145,11 @@ fn a_run_says_which_member_goes_first() {
         for joint in &building.joints {
             let ratio = joint.ratio.as_ref().expect("by the governing rule");
             assert_eq!(ratio.rule, "gb50010");
-            let others: Vec<_> = joint.other_ratios.iter().map(|own| own.rule).collect();
+            let others: Vec<_> = joint
+                .other_ratios
+                .iter()
+                .map(|other_ratios| other_ratios.rule)
+                .collect();
             assert_eq!(others, ["en1998-3", "aci318"]);
             assert!(
                 ratio.shear > 0.0 && joint.shear_peak_n > 1e4,
@@ -186,7 +190,7 @@ fn a_run_says_which_member_goes_first() {
     let columns = jostle_io::capacity_columns(&summary, Some(0));
     let of = |name: &str| {
         let mut all = columns.iter();
-        let found = all.find(|(own, _)| *own == name);
+        let found = all.find(|(candidate, _)| *candidate == name);
         &found.unwrap_or_else(|| panic!("no column {name}")).1
     };
     let (Values::Text(names), Values::Instant(shear), Values::Instant(bending)) =
@@ -255,17 +259,23 @@ fn yielding_members_are_held_against_accepted_rotations() {
         .flat_map(|building| &building.members);
     let accepted: Vec<_> = members.flat_map(|member| &member.acceptance).collect();
     for rule in ["en1998-3", "asce41", "section"] {
-        let own = accepted.iter().filter(|own| own.rule == rule);
-        assert!(own.clone().count() > 0, "{rule}");
-        assert!(own.clone().any(|own| own.rotation_rad > 0.0), "{rule}");
-        for own in own {
-            let kept = own
+        let acceptance = accepted.iter().filter(|acceptance| acceptance.rule == rule);
+        assert!(acceptance.clone().count() > 0, "{rule}");
+        assert!(
+            acceptance
+                .clone()
+                .any(|acceptance| acceptance.rotation_rad > 0.0),
+            "{rule}"
+        );
+        for acceptance in acceptance {
+            let kept = acceptance
                 .limits
                 .iter()
-                .find(|limit| own.rotation_rad <= limit.rotation_rad);
-            assert_eq!(own.level, kept.map(|limit| limit.level));
+                .find(|limit| acceptance.rotation_rad <= limit.rotation_rad);
+            assert_eq!(acceptance.level, kept.map(|limit| limit.level));
             assert!(
-                own.limits
+                acceptance
+                    .limits
                     .windows(2)
                     .all(|pair| pair[0].rotation_rad <= pair[1].rotation_rad)
             );

@@ -425,7 +425,9 @@ fn compare(summary: &Value, owners: &[&Owner]) {
 
 /// Compares a list with all objects of its owner together, of which none has every number: walls have no settlement.
 fn compare_together(summaries: &[Value], owner: &Owner) {
-    let found = summaries.iter().flat_map(|own| objects(own, owner.key));
+    let found = summaries
+        .iter()
+        .flat_map(|summary| objects(summary, owner.key));
     let keys: BTreeSet<&str> = found
         .flat_map(|object| object.as_object().expect("an object"))
         .filter(|(_, value)| value.is_number())
@@ -511,7 +513,7 @@ fn lists_read_the_values_of_the_summary() {
         }
         for member in &building.members {
             let compared = member.compared.iter();
-            compared.for_each(|own| same(MemberComparison::QUANTITIES, own));
+            compared.for_each(|comparison| same(MemberComparison::QUANTITIES, comparison));
             let worst = member.at_worst.iter();
             worst.for_each(|forces| same(ForcesSummary::QUANTITIES, forces));
             let ratios = member.ratio.iter().chain(&member.other_ratios);
@@ -520,7 +522,7 @@ fn lists_read_the_values_of_the_summary() {
                 same(RatioPlace::QUANTITIES, &ratio.bending_at);
             }
             let accepted = member.acceptance.iter();
-            accepted.for_each(|own| same(AcceptanceSummary::QUANTITIES, own));
+            accepted.for_each(|acceptance| same(AcceptanceSummary::QUANTITIES, acceptance));
             let failures = member.axial_failure.iter();
             failures.for_each(|failure| same(AxialFailureSummary::QUANTITIES, failure));
         }

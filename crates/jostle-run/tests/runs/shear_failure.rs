@@ -30,36 +30,42 @@ fn failures_are_reported_with_their_impacts() {
     let Some(Hinges::Frame(hinges)) = &ran.prepared.input.model.buildings[0].hinges else {
         panic!("a frame with hinges")
     };
-    for own in &failures.list {
-        let place = own.column.strip_prefix("old.column.").expect("its name");
+    for failure in &failures.list {
+        let place = failure
+            .column
+            .strip_prefix("old.column.")
+            .expect("its name");
         let (line, storey) = place.split_once('.').expect("line and storey");
         let [line, storey] = [line, storey].map(|text| text.parse::<usize>().expect("a number"));
         // k of Sezen and Moehle, 0.7 to 1.
         let column = &hinges.shear[storey - 1][line - 1];
-        let share = own.strength_n / column.spring.backbone().yield_force();
+        let share = failure.strength_n / column.spring.backbone().yield_force();
         assert!(
             (0.7 - 1e-9..=1.0 + 1e-9).contains(&share),
-            "{share}: {own:?}"
+            "{share}: {failure:?}"
         );
-        assert!((0.1 - 1e-9..=1.0).contains(&own.strength_left), "{own:?}");
-        assert!(own.slip_peak_m > 0.0, "{own:?}");
+        assert!(
+            (0.1 - 1e-9..=1.0).contains(&failure.strength_left),
+            "{failure:?}"
+        );
+        assert!(failure.slip_peak_m > 0.0, "{failure:?}");
     }
     // An impact that is named was in progress.
     let impacts = failures
         .list
         .iter()
-        .filter_map(|own| Some((own, own.impact.as_ref()?)));
-    for (own, impact) in impacts {
+        .filter_map(|failure| Some((failure, failure.impact.as_ref()?)));
+    for (failure, impact) in impacts {
         let gap = &summary.gaps[0];
         let known = gap.contacts.iter().flat_map(|contact| &contact.impacts);
         let mut known = known.filter(|known| known.start_s == impact.start_s);
-        assert!(known.any(|known| (known.start_s..=known.end_s).contains(&own.failed_s)));
+        assert!(known.any(|known| (known.start_s..=known.end_s).contains(&failure.failed_s)));
     }
     let text = summary_text(&summary, &ran.prepared.input);
     assert!(text.contains("fails in shear in "), "{text}");
     let json: serde_json::Value = serde_json::from_str(&summary_json(&summary)).expect("JSON");
-    let own = &json["buildings"][0]["shear_failures"];
-    assert_eq!(own["failed"], failures.failed);
+    let json_failures = &json["buildings"][0]["shear_failures"];
+    assert_eq!(json_failures["failed"], failures.failed);
     assert!(json["buildings"][1].get("shear_failures").is_none());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("columns that fail");
     std::fs::create_dir_all(&folder).expect("a folder");

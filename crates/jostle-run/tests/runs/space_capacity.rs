@@ -91,11 +91,11 @@ fn in_space(motion: &str, solver: &str, turned: bool, axial: &str) -> Ran {
 
 fn members(ran: &Ran) -> Vec<MemberSummary> {
     let buildings = ran.summary().buildings.into_iter();
-    buildings.flat_map(|own| own.members).collect()
+    buildings.flat_map(|building| building.members).collect()
 }
 
 fn named<'a>(members: &'a [MemberSummary], name: &str) -> &'a MemberSummary {
-    let found = members.iter().find(|own| own.name == name);
+    let found = members.iter().find(|member| member.name == name);
     found.unwrap_or_else(|| panic!("no {name}"))
 }
 
@@ -136,22 +136,22 @@ fn a_space_frame_of_two_equal_frames_has_the_ratios_of_one() {
         let space = members(&in_space(motion, EQUAL_STEPS, turned, "rigid"));
         for storey in 1..=2 {
             for line in 1..=2 {
-                let own = named(&plane, &format!("A.column.{line}.{storey}"));
+                let member = named(&plane, &format!("A.column.{line}.{storey}"));
                 for frame in 1..=2 {
                     let name = match turned {
                         false => format!("A.column.{line}.{frame}.{storey}"),
                         true => format!("A.column.{frame}.{line}.{storey}"),
                     };
-                    same(named(&space, &name), own, 1e-9);
+                    same(named(&space, &name), member, 1e-9);
                 }
             }
-            let own = named(&plane, &format!("A.beam.{storey}.1"));
+            let member = named(&plane, &format!("A.beam.{storey}.1"));
             for frame in 1..=2 {
                 let name = match turned {
                     false => format!("A.beam_x.{storey}.1.{frame}"),
                     true => format!("A.beam_y.{storey}.{frame}.1"),
                 };
-                same(named(&space, &name), own, 1e-9);
+                same(named(&space, &name), member, 1e-9);
             }
         }
     }
@@ -161,10 +161,10 @@ fn a_space_frame_of_two_equal_frames_has_the_ratios_of_one() {
 fn frames_at_lines_of_a_plan_have_the_ratios_of_plane_frames() {
     let plane = members(&plane("rigid"));
     let found = members(&at_lines("rigid"));
-    for own in &plane {
-        let place = own.name.strip_prefix("A.").expect("its building");
+    for plane in &plane {
+        let place = plane.name.strip_prefix("A.").expect("its building");
         for frame in ["F.1", "F.2"] {
-            same(named(&found, &format!("A.{frame}.{place}")), own, 1e-8);
+            same(named(&found, &format!("A.{frame}.{place}")), plane, 1e-8);
         }
     }
 }
@@ -176,10 +176,10 @@ fn columns_that_shorten_have_the_ratios_of_frames_at_lines() {
     let space = members(&in_space("", EQUAL_STEPS, false, "flexible"));
     for storey in 1..=2 {
         for line in 1..=2 {
-            let own = named(&frames, &format!("A.F.1.column.{line}.{storey}"));
+            let member = named(&frames, &format!("A.F.1.column.{line}.{storey}"));
             same(
                 named(&space, &format!("A.column.{line}.1.{storey}")),
-                own,
+                member,
                 1e-8,
             );
         }
@@ -200,17 +200,17 @@ fn oblique_ratios_are_those_of_the_histories() {
         };
         let mut oblique = 0;
         for rating in &system.ratings {
-            let own = named(&members, &rating.capacity.member);
+            let rated_member = named(&members, &rating.capacity.member);
             // Histories stand in the order of the request.
             let sections =
                 |[_, member]: &[usize; 2]| building.members.members[*member].sections.len();
             let place = history.members().iter().position(|[_, member]| {
-                let own = building.members.members[*member].local_name(&[]);
-                format!("A.{own}") == rating.capacity.member
+                let local_name = building.members.members[*member].local_name(&[]);
+                format!("A.{local_name}") == rating.capacity.member
             });
             let place = place.expect("followed");
             let first: usize = history.members()[..place].iter().map(sections).sum();
-            for (rule, found) in rating.capacity.rules.iter().zip(all_ratios(own)) {
+            for (rule, found) in rating.capacity.rules.iter().zip(all_ratios(rated_member)) {
                 let mut due = [0.0_f64; 2];
                 for forces in history.rows() {
                     for [axial, shear, moment, shear_across, moment_across, _] in
@@ -222,9 +222,10 @@ fn oblique_ratios_are_those_of_the_histories() {
                         let moments = [*moment, *moment_across];
                         due[0] = due[0].max(rule.bending_ratio(compression, moments));
                         let part = |capacity: Option<&jostle::model::ShearCapacity>, shear: f64| {
-                            capacity.map_or(0.0, |own| shear.abs() / own.at(compression, 1.0))
+                            capacity
+                                .map_or(0.0, |capacity| shear.abs() / capacity.at(compression, 1.0))
                         };
-                        let across = rule.across.as_ref().and_then(|own| own.shear.as_ref());
+                        let across = rule.across.as_ref().and_then(|plane| plane.shear.as_ref());
                         let both =
                             part(rule.shear.as_ref(), *shear).hypot(part(across, *shear_across));
                         due[1] = due[1].max(both);
@@ -233,7 +234,11 @@ fn oblique_ratios_are_those_of_the_histories() {
                 let shear = found.shear.unwrap_or_default();
                 for (found, due) in [(found.bending, due[0]), (shear, due[1])] {
                     let within = (due * (1.0 - 1e-9)..=due * (1.0 + above)).contains(&found);
-                    assert!(within, "{} {}: {found} for {due}", own.name, rule.rule);
+                    assert!(
+                        within,
+                        "{} {}: {found} for {due}",
+                        rated_member.name, rule.rule
+                    );
                 }
                 let at = &found.bending_at;
                 if let Some(across) = at.demand_across {
@@ -294,11 +299,11 @@ fn a_slow_motion_along_a_diagonal_by_hand() {
         ("A.column.1.2.1", due[1]),
         ("A.column.2.1.1", due[1]),
     ] {
-        let own = named(&members, name).ratio.as_ref().expect("rated");
+        let ratio = named(&members, name).ratio.as_ref().expect("rated");
         assert!(
-            (own.bending / due - 1.0).abs() < 5e-3,
+            (ratio.bending / due - 1.0).abs() < 5e-3,
             "{name}: {} for {due}",
-            own.bending
+            ratio.bending
         );
     }
     // The same shear in both directions as one of their vector.
@@ -336,15 +341,15 @@ fn ties_need_bars_and_beams_have_them() {
     }
     let input = sound(&model(""));
     let names: Vec<&str> = (input.model.analysis.members.capacities.iter())
-        .map(|own| &own.member[..])
+        .map(|capacity| &capacity.member[..])
         .collect();
     assert_eq!(names, ["A.beam_x.1.1.1", "A.beam_x.1.1.2"]);
     // Half the width of a column at either end.
-    for own in &input.reinforced {
+    for beam in &input.reinforced {
         assert!(
-            (own.clear_length - 5.5).abs() < 1e-12,
+            (beam.clear_length - 5.5).abs() < 1e-12,
             "{}",
-            own.clear_length
+            beam.clear_length
         );
     }
 }

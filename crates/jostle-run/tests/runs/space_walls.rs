@@ -51,7 +51,10 @@ fn in_space(turned: bool) -> Ran {
 
 fn walls(ran: &Ran) -> Vec<PartSummary> {
     let parts = ran.summary().buildings.remove(0).parts;
-    parts.into_iter().filter(|own| own.kind == "wall").collect()
+    parts
+        .into_iter()
+        .filter(|part| part.kind == "wall")
+        .collect()
 }
 
 #[test]

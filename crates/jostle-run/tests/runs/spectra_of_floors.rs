@@ -267,7 +267,12 @@ fn every_run_with_histories_reports_filtered_accelerations() {
         "#;
     let summary = run(text).summary();
     assert!(summary.gaps[0].impact_count > 0);
-    let floors = || summary.buildings.iter().flat_map(|own| own.floors.iter());
+    let floors = || {
+        summary
+            .buildings
+            .iter()
+            .flat_map(|building| building.floors.iter())
+    };
     let mut less = 0;
     for floor in floors() {
         let filtered = floor

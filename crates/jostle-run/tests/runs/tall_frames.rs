@@ -8,9 +8,9 @@ use jostle_testkit::files::sound;
 const SECTIONS: &str =
     "column = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n";
 
-fn model(storeys: usize, width: f64, own: &str) -> String {
+fn model(storeys: usize, width: f64, keys: &str) -> String {
     format!(
-        "[[building]]\nname = \"A\"\nstoreys = {storeys}\nstorey_height = 3\nspans = [{width}]\nconcrete = \"C30\"\nbeam_mass = \"5 t/m\"\n{own}"
+        "[[building]]\nname = \"A\"\nstoreys = {storeys}\nstorey_height = 3\nspans = [{width}]\nconcrete = \"C30\"\nbeam_mass = \"5 t/m\"\n{keys}"
     )
 }
 
@@ -32,38 +32,48 @@ const RIGID: Axial = Axial {
 
 #[test]
 fn columns_shorten_above_three_widths_or_ten_storeys_unless_the_file_says_otherwise() {
-    let own = |own: &str| format!("{SECTIONS}{own}");
+    let with_sections = |keys: &str| format!("{SECTIONS}{keys}");
     let by_rigidity =
         "column = { EI = \"150 MN.m2\", mass = 600 }\nbeam = { EI = \"160 MN.m2\" }\n";
     let with_area = "column = { EI = \"150 MN.m2\", EA = \"7 GN\", mass = 600 }\nbeam = { EI = \"160 MN.m2\" }\n";
-    for (storeys, width, own, due) in [
-        (10, 11.0, own(""), RIGID),
-        (11, 12.0, own(""), COLUMNS),
-        (4, 4.0, own(""), RIGID),
-        (4, 3.9, own(""), COLUMNS),
-        (30, 12.0, own("axial = \"rigid\"\n"), RIGID),
-        (2, 6.0, own("axial = \"flexible\"\n"), COLUMNS),
-        (30, 12.0, own("axial = { columns = \"rigid\" }\n"), RIGID),
+    for (storeys, width, keys, due) in [
+        (10, 11.0, with_sections(""), RIGID),
+        (11, 12.0, with_sections(""), COLUMNS),
+        (4, 4.0, with_sections(""), RIGID),
+        (4, 3.9, with_sections(""), COLUMNS),
+        (30, 12.0, with_sections("axial = \"rigid\"\n"), RIGID),
+        (2, 6.0, with_sections("axial = \"flexible\"\n"), COLUMNS),
+        (
+            30,
+            12.0,
+            with_sections("axial = { columns = \"rigid\" }\n"),
+            RIGID,
+        ),
         // What a table does not say has its default.
-        (30, 12.0, own("axial = { beams = \"rigid\" }\n"), COLUMNS),
+        (
+            30,
+            12.0,
+            with_sections("axial = { beams = \"rigid\" }\n"),
+            COLUMNS,
+        ),
         (30, 12.0, by_rigidity.to_owned(), RIGID),
         (30, 12.0, with_area.to_owned(), COLUMNS),
     ] {
-        let found = frame(&model(storeys, width, &own)).axial;
-        assert_eq!(found, due, "{storeys} storeys, {width} m, {own}");
+        let found = frame(&model(storeys, width, &keys)).axial;
+        assert_eq!(found, due, "{storeys} storeys, {width} m, {keys}");
     }
     // The same model as with the word written out.
-    let tall = |axial: &str| sound(&model(30, 12.0, &own(axial))).model;
+    let tall = |axial: &str| sound(&model(30, 12.0, &with_sections(axial))).model;
     assert_eq!(tall(""), tall("axial = \"flexible\"\n"));
 }
 
 /// Foundations on soil need columns that keep their length: the default leaves them so.
 #[test]
 fn frames_on_foundations_keep_their_columns() {
-    let own = format!(
+    let text = format!(
         "{SECTIONS}foundation = {{ length = 12, width = 12, mass = \"120 t\" }}\n[soil]\nshear_wave_velocity = 200\ndensity = 1800\npoisson_ratio = 0.35\ndamping = 0.05\n"
     );
-    assert_eq!(frame(&model(12, 12.0, &own)).axial, RIGID);
+    assert_eq!(frame(&model(12, 12.0, &text)).axial, RIGID);
 }
 
 /// Joints between rigid beams neither turn nor bend: stories are clamped columns, and what columns stretch adds is the cantilever of
@@ -72,13 +82,13 @@ fn frames_on_foundations_keep_their_columns() {
 fn the_period_with_columns_that_shorten_has_the_part_of_a_cantilever() {
     let (storeys, width, height) = (30_usize, 6.0, 3.0);
     let (mass, area, modulus) = (5e3 * width, 0.25, 30e9);
-    let own = |axial: &str| {
+    let keys = |axial: &str| {
         format!(
             "column = {{ width = 0.5, depth = 0.5 }}\nbeam = {{ EI = 1e12 }}\ndensity = 0\ncolumn_segments = 1\nbeam_segments = 1\n{axial}"
         )
     };
     let period = |axial: &str| {
-        let text = model(storeys, width, &own(axial));
+        let text = model(storeys, width, &keys(axial));
         let opened = Opened::new(sound(&text), "A").unwrap_or_else(|error| panic!("{error}"));
         let mode = opened.system.buildings[0].lateral_modes().next();
         mode.expect("a mode").period()

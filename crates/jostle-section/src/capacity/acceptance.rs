@@ -321,7 +321,9 @@ mod tests {
                 clear_length: 5.5,
                 ..rated(&section)
             };
-            member.asce41_rotations(0.0).map(|own| own.limits)
+            member
+                .asce41_rotations(0.0)
+                .map(|asce41_rotation| asce41_rotation.limits)
         };
         // Ties at 100 ≤ 560/3 mm carry more than the shear of hinges at both ends, which is below 3 √f'c: conforming.
         let conforming = limits("d8 @ 100 mm").expect("by flexure");

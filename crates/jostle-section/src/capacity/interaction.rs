@@ -192,9 +192,9 @@ mod tests {
         let law = crate::ConcreteLaw::unconfined(&section.concrete);
         let strain = |depth: f64| top * (1.0 - depth / axis);
         let (mut force, mut moment) = (0.0, 0.0);
-        let mut add = |own: f64, depth: f64| {
-            force += own;
-            moment += own * (0.5 * section.depth - depth);
+        let mut add = |value: f64, depth: f64| {
+            force += value;
+            moment += value * (0.5 * section.depth - depth);
         };
         let slices = 2000;
         for slice in 0..slices {
@@ -206,10 +206,13 @@ mod tests {
             );
         }
         for bar in &section.bars {
-            let own = strain(bar.depth);
+            let strain = strain(bar.depth);
             let fy = section.steel.yield_strength;
-            let steel = (section.steel.modulus * own).clamp(-fy, fy);
-            add((steel - law.stress(own).max(0.0)) * bar.area(), bar.depth);
+            let steel = (section.steel.modulus * strain).clamp(-fy, fy);
+            add(
+                (steel - law.stress(strain).max(0.0)) * bar.area(),
+                bar.depth,
+            );
         }
         [force, moment]
     }
@@ -250,7 +253,7 @@ mod tests {
                 let greatest = interaction
                     .points
                     .iter()
-                    .fold(0.0_f64, |m, [_, own]| m.max(*own));
+                    .fold(0.0_f64, |m, [_, point]| m.max(*point));
                 for share in [0.0, 0.07, 0.19, 0.33, 0.42, 0.58, 0.77] {
                     let (found, due) = (
                         interaction.moment(share * most),

@@ -66,10 +66,10 @@ impl RatedMember<'_> {
     ) -> Vec<RuleCapacity> {
         let plain = oblique.surface(|_| 1.0);
         let mut capacities = self.capacities_with(rules, interaction);
-        for (rule, own) in rules.iter().zip(&mut capacities) {
+        for (rule, capacity) in rules.iter().zip(&mut capacities) {
             let factor = |load: f64| rule.bending_factor(self, load);
             let is_plain = oblique.loads().iter().all(|load| factor(*load) == 1.0);
-            own.across = Some(AcrossCapacity {
+            capacity.across = Some(AcrossCapacity {
                 shear: across.shear(*rule),
                 bending: match is_plain {
                     true => plain.clone(),

@@ -94,10 +94,10 @@ impl ShearRule {
             (&EN_STEEL_GRADES, Self::En1998),
             (&ASTM_STEEL_GRADES, Self::Asce41),
         ];
-        let own = lists
+        let row = lists
             .into_iter()
             .find(|(grades, _)| grades.contains(&grade));
-        own.map(|(_, rule)| rule)
+        row.map(|(_, rule)| rule)
     }
 
     /// The rule of a name.

@@ -60,8 +60,8 @@ impl ObliqueInteraction {
         ];
         for (side, plane, _) in sides.into_iter().filter(|(.., even)| *even) {
             let factor = if side % 2 == 0 { 1.0 } else { stretch };
-            let own = loads.iter().map(|load| factor * plane.moment(*load));
-            moments[side * quarter] = own.collect();
+            let capacities = loads.iter().map(|load| factor * plane.moment(*load));
+            moments[side * quarter] = capacities.collect();
         }
         Self {
             loads,
@@ -90,7 +90,7 @@ impl ObliqueInteraction {
 
 /// Compressions under which moments in any plane are known, rising: straight lines between them are those of every plane.
 fn all_loads(planes: &[[Interaction; 2]; 2]) -> Vec<f64> {
-    let points = planes.iter().flatten().flat_map(|own| &own.points);
+    let points = planes.iter().flatten().flat_map(|plane| &plane.points);
     let mut loads: Vec<f64> = points.map(|[load, _]| *load).collect();
     loads.sort_by(f64::total_cmp);
     let range = loads.last().copied().unwrap_or(0.0) - loads.first().copied().unwrap_or(0.0);
@@ -187,7 +187,7 @@ struct Cut<'a> {
 
 impl<'a> Cut<'a> {
     fn new(section: &'a Section, direction: [f64; 2]) -> Self {
-        let mut own = Self {
+        let mut cut = Self {
             concrete: ConcreteLaw::unconfined(&section.concrete),
             steel: SteelLaw(section.steel),
             section,
@@ -195,9 +195,9 @@ impl<'a> Cut<'a> {
             deepest: 0.0,
         };
         let bars = section.bars.iter();
-        let distances = bars.map(|bar| own.distance(own.measured_from_corner([bar.depth, bar.x])));
-        own.deepest = distances.fold(0.0, f64::max);
-        own
+        let distances = bars.map(|bar| cut.distance(cut.measured_from_corner([bar.depth, bar.x])));
+        cut.deepest = distances.fold(0.0, f64::max);
+        cut
     }
 
     /// Distances from the corner with the greatest compression over depth and width, of a point below the top and from the
@@ -226,11 +226,11 @@ impl<'a> Cut<'a> {
         let mut sum = [0.0; 3];
         let mut add = |force: f64, measured_from_corner: [f64; 2]| {
             let arm = |axis: usize, size: f64| {
-                let own = (0.5 - measured_from_corner[axis]) * size;
+                let distance = (0.5 - measured_from_corner[axis]) * size;
                 if self.direction[axis] >= 0.0 {
-                    own
+                    distance
                 } else {
-                    -own
+                    -distance
                 }
             };
             sum[0] += force;
@@ -278,14 +278,14 @@ impl<'a> Cut<'a> {
         }
         for bar in &section.bars {
             let place = self.measured_from_corner([bar.depth, bar.x]);
-            let own = strain(self.distance(place));
+            let strain = strain(self.distance(place));
             // Bars displace concrete.
-            let displaced = if own > 0.0 {
-                self.concrete.stress(own)
+            let displaced = if strain > 0.0 {
+                self.concrete.stress(strain)
             } else {
                 0.0
             };
-            add(bar.area() * (self.steel.stress(own) - displaced), place);
+            add(bar.area() * (self.steel.stress(strain) - displaced), place);
         }
         sum
     }

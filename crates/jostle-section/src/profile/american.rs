@@ -406,19 +406,19 @@ mod tests {
         ("HSS4.000X0.250", [2.76, 4.91, 4.91, 3.31, 3.31]),
     ];
 
-    fn properties(own: &Profile) -> [f64; 5] {
+    fn properties(profile: &Profile) -> [f64; 5] {
         let axes = [Axis::Strong, Axis::Weak];
-        let [ix, iy] = axes.map(|axis| own.inertia(axis) / INCH.powi(4));
-        let [zx, zy] = axes.map(|axis| own.plastic_modulus(axis) / INCH.powi(3));
-        [own.area() / (INCH * INCH), ix, iy, zx, zy]
+        let [ix, iy] = axes.map(|axis| profile.inertia(axis) / INCH.powi(4));
+        let [zx, zy] = axes.map(|axis| profile.plastic_modulus(axis) / INCH.powi(3));
+        [profile.area() / (INCH * INCH), ix, iy, zx, zy]
     }
 
     /// Tables round sizes of W shapes to three digits, which leaves up to 1 %.
     #[test]
     fn properties_are_those_of_the_manual() {
         for (name, printed) in MANUAL {
-            let own = Profile::named(name).expect(name);
-            for (found, printed) in properties(&own).into_iter().zip(printed) {
+            let profile = Profile::named(name).expect(name);
+            for (found, printed) in properties(&profile).into_iter().zip(printed) {
                 assert!(
                     (found / printed - 1.0).abs() < 0.01,
                     "{name}: {found} {printed}"
@@ -432,11 +432,11 @@ mod tests {
     fn areas_of_all_are_those_of_their_weights() {
         assert!(W_SHAPES.len() > 280);
         for (name, _) in W_SHAPES {
-            let own = wide_flange(name).expect(name);
-            assert_eq!(own.fault(), None, "{name}");
+            let wide_flange = wide_flange(name).expect(name);
+            assert_eq!(wide_flange.fault(), None, "{name}");
             let (_, weight) = name.split_once('X').expect("a weight");
             let weight: f64 = weight.parse().expect("a number");
-            let found = own.area() / (INCH * INCH) / 144.0 * 490.0;
+            let found = wide_flange.area() / (INCH * INCH) / 144.0 * 490.0;
             assert!((found / weight - 1.0).abs() < 0.02, "{name}: {found}");
         }
     }
@@ -444,10 +444,10 @@ mod tests {
     #[test]
     fn names_of_tubes_are_sizes() {
         let half = Profile::named("hss 2-1/2 x 1-1/2 x 3/16").expect("known");
-        let Profile::Tube(own) = half else {
+        let Profile::Tube(tube) = half else {
             panic!("{half:?}")
         };
-        let inches = [own.depth, own.width, own.wall / DESIGN_WALL].map(|size| size / INCH);
+        let inches = [tube.depth, tube.width, tube.wall / DESIGN_WALL].map(|size| size / INCH);
         for (found, due) in inches.into_iter().zip([2.5, 1.5, 0.1875]) {
             assert!((found - due).abs() < 1e-12, "{found}");
         }

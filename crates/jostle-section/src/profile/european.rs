@@ -171,9 +171,9 @@ mod tests {
     fn areas_and_second_moments_are_those_of_catalogues() {
         assert_eq!(CATALOGUE.len(), PROFILES.len());
         for &(name, area, inertia) in CATALOGUE {
-            let own = Profile::named(name).expect(name);
+            let profile = Profile::named(name).expect(name);
             assert_eq!(named(name).expect(name).fault(), None, "{name}");
-            let found = [1e4 * own.area(), 1e8 * own.inertia(Axis::Strong)];
+            let found = [1e4 * profile.area(), 1e8 * profile.inertia(Axis::Strong)];
             assert!((found[0] / area - 1.0).abs() < 4e-3, "{name}: {found:?}");
             assert!((found[1] / inertia - 1.0).abs() < 1e-3, "{name}: {found:?}");
         }
@@ -183,8 +183,8 @@ mod tests {
     #[test]
     fn second_moments_about_the_weak_axis_are_those_of_catalogues() {
         for (name, inertia) in [("IPE 300", 603.8), ("heb-200", 2003.0), ("HEA300", 6310.0)] {
-            let own = Profile::named(name).expect(name);
-            let found = 1e8 * own.inertia(Axis::Weak);
+            let profile = Profile::named(name).expect(name);
+            let found = 1e8 * profile.inertia(Axis::Weak);
             assert!((found / inertia - 1.0).abs() < 1e-3, "{name}: {found}");
         }
     }
@@ -198,8 +198,8 @@ mod tests {
             ("HEB200", 642.5, 305.8),
             ("HEB300", 1869.0, 870.1),
         ] {
-            let own = Profile::named(name).expect(name);
-            let found = [Axis::Strong, Axis::Weak].map(|axis| 1e6 * own.plastic_modulus(axis));
+            let profile = Profile::named(name).expect(name);
+            let found = [Axis::Strong, Axis::Weak].map(|axis| 1e6 * profile.plastic_modulus(axis));
             assert!((found[0] / strong - 1.0).abs() < 1e-3, "{name}: {found:?}");
             assert!((found[1] / weak - 1.0).abs() < 1e-3, "{name}: {found:?}");
         }

@@ -142,8 +142,8 @@ mod tests {
                 wall,
                 radius,
             };
-            let own = 1e8 * tube.torsion_constant();
-            assert!((own / due - 1.0).abs() < 1e-2, "{own}, not {due}");
+            let torsion = 1e8 * tube.torsion_constant();
+            assert!((torsion / due - 1.0).abs() < 1e-2, "{torsion}, not {due}");
         }
     }
 }

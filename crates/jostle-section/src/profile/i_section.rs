@@ -132,8 +132,11 @@ mod tests {
             ("HEB300", 185.0),
         ];
         for (name, due) in tables {
-            let own = Profile::named(name).expect("known").torsion_constant();
-            assert!((1e8 * own / due - 1.0).abs() < 5e-3, "{name}: {own}");
+            let torsion_constant = Profile::named(name).expect("known").torsion_constant();
+            assert!(
+                (1e8 * torsion_constant / due - 1.0).abs() < 5e-3,
+                "{name}: {torsion_constant}"
+            );
         }
     }
 

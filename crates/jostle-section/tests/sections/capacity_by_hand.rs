@@ -110,14 +110,15 @@ impl ByHand {
         let part = self.depth / f64::from(slices);
         for slice in 0..slices {
             let depth = (f64::from(slice) + 0.5) * part;
-            let own = concrete(strain(depth)) * self.width * part;
-            force += own;
-            moment += own * (0.5 * self.depth - depth);
+            let slice_force = concrete(strain(depth)) * self.width * part;
+            force += slice_force;
+            moment += slice_force * (0.5 * self.depth - depth);
         }
         for [depth, area] in &self.layers {
-            let own = (steel(strain(*depth), self.hardening) - concrete(strain(*depth))) * area;
-            force += own;
-            moment += own * (0.5 * self.depth - depth);
+            let layer_force =
+                (steel(strain(*depth), self.hardening) - concrete(strain(*depth))) * area;
+            force += layer_force;
+            moment += layer_force * (0.5 * self.depth - depth);
         }
         [force, moment]
     }
@@ -173,25 +174,25 @@ impl ByHand {
 
 #[test]
 fn moments_are_in_equilibrium_in_tension_and_in_compression() {
-    for (section, own) in described(StrengthLevel::Characteristic)
+    for (section, by_hand) in described(StrengthLevel::Characteristic)
         .iter()
         .zip([column(), uneven()])
     {
         let [positive, negative] = Interaction::of_both_signs(section);
-        let tension = STEEL * own.steel_area();
-        for (curve, own) in [(positive, &own), (negative, &own.upside_down())] {
+        let tension = STEEL * by_hand.steel_area();
+        for (curve, by_hand) in [(positive, &by_hand), (negative, &by_hand.upside_down())] {
             let most = curve
                 .points
                 .iter()
-                .fold(0.0_f64, |most, [_, own]| most.max(*own));
+                .fold(0.0_f64, |most, [_, point]| most.max(*point));
             // From nearly the tension of all bars to three quarters of the compression of the whole section.
-            let squash = CONCRETE * own.width * own.depth + tension;
+            let squash = CONCRETE * by_hand.width * by_hand.depth + tension;
             let loads = [-0.7, -0.4, -0.15].map(|share| share * tension);
             for load in loads
                 .into_iter()
                 .chain([0.0, 0.1, 0.25, 0.4, 0.6, 0.75].map(|share| share * squash))
             {
-                let (found, due) = (curve.moment(load), own.greatest(load).max(0.0));
+                let (found, due) = (curve.moment(load), by_hand.greatest(load).max(0.0));
                 // The surface has 24 strains of the top and 65 forces, straight lines between them: it stays below, by 0.41 % at
                 // most where bars yield as the top is crushed. With four and eight times as many strains and axes it is 0.02 %.
                 let off = (found - due) / most;
@@ -210,20 +211,20 @@ fn bars_that_harden_are_stretched_to_their_limit() {
     let hardening = 0.05;
     let [_, mut section] = described(StrengthLevel::Characteristic);
     section.steel.hardening = hardening;
-    let own = ByHand {
+    let hand = ByHand {
         hardening,
         ..uneven()
     };
     let [positive, negative] = Interaction::of_both_signs(&section);
-    for (curve, own) in [(positive, &own), (negative, &own.upside_down())] {
+    for (curve, by_hand) in [(positive, &hand), (negative, &hand.upside_down())] {
         let most = curve
             .points
             .iter()
-            .fold(0.0_f64, |most, own| most.max(own[1]));
-        let all = own.steel_area() * -steel(-STRETCHED, hardening);
+            .fold(0.0_f64, |most, point| most.max(point[1]));
+        let all = by_hand.steel_area() * -steel(-STRETCHED, hardening);
         close(curve.range()[0], -all, 1e-9, "all bars at their limit");
         for load in [-0.8 * all, -0.5 * all, -0.2 * all, 0.0] {
-            let (found, due) = (curve.moment(load), own.greatest(load).max(0.0));
+            let (found, due) = (curve.moment(load), by_hand.greatest(load).max(0.0));
             assert!(
                 (found - due).abs() < 1e-3 * most,
                 "{found} instead of {due} at {load}"
@@ -247,13 +248,17 @@ fn ties_and_concrete_in_tension_are_left_out() {
 /// resultant of the concrete from its law over the compressed depth.
 #[test]
 fn the_balanced_state_lies_on_the_surface() {
-    let own = column();
+    let column = column();
     let [section, _] = described(StrengthLevel::Characteristic);
     // Neutral axis: 0.46 · 0.0033/(0.0033 + 0.002) = 0.28642 m. Strains of the layers: 0.0028391 and 0.0012261 in compression,
     // 0.0003870 and 0.002 in tension; stresses 400, 245.2, −77.4 and −400 MPa.
     let axis = 0.46 * CRUSHED / (CRUSHED + STEEL / STEEL_MODULUS);
     let [mut force, mut moment] = [0.0; 2];
-    for ([depth, area], stress) in own.layers.iter().zip([400e6, 245.22e6, -77.39e6, -400e6]) {
+    for ([depth, area], stress) in column
+        .layers
+        .iter()
+        .zip([400e6, 245.22e6, -77.39e6, -400e6])
+    {
         let strain = CRUSHED * (1.0 - depth / axis);
         let net = (stress - concrete(strain)) * area;
         force += net;
@@ -286,27 +291,27 @@ fn the_balanced_state_lies_on_the_surface() {
 /// beyond the compression that crushes the whole.
 #[test]
 fn ends_of_the_surface_are_those_of_bars_and_of_the_whole_section() {
-    for (section, own) in described(StrengthLevel::Characteristic)
+    for (section, by_hand) in described(StrengthLevel::Characteristic)
         .iter()
         .zip([column(), uneven()])
     {
         let [positive, negative] = Interaction::of_both_signs(section);
-        let tension = STEEL * own.steel_area();
-        let eccentric: f64 = own
+        let tension = STEEL * by_hand.steel_area();
+        let eccentric: f64 = by_hand
             .layers
             .iter()
-            .map(|[depth, area]| STEEL * area * (depth - 0.5 * own.depth))
+            .map(|[depth, area]| STEEL * area * (depth - 0.5 * by_hand.depth))
             .sum();
-        for (curve, own, moment) in [
-            (&positive, &own, eccentric),
-            (&negative, &own.upside_down(), -eccentric),
+        for (curve, by_hand, moment) in [
+            (&positive, &by_hand, eccentric),
+            (&negative, &by_hand.upside_down(), -eccentric),
         ] {
             let [least, most] = curve.range();
             close(least, -tension, 1e-9, "all bars in tension");
-            close(most, own.squash(), 2e-3, "the whole in compression");
+            close(most, by_hand.squash(), 2e-3, "the whole in compression");
             let end = curve.moment(least);
             assert!(
-                (end - moment.max(0.0)).abs() < 1e-9 * tension * own.depth,
+                (end - moment.max(0.0)).abs() < 1e-9 * tension * by_hand.depth,
                 "{end} instead of {moment}"
             );
             assert_eq!(curve.moment(1.001 * most), 0.0);

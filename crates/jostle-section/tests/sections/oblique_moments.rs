@@ -60,10 +60,10 @@ fn sums(section: &Section, middle: f64, curvatures: [f64; 2]) -> [f64; 3] {
     }
     for bar in &section.bars {
         let at = [0.5 * section.depth - bar.depth, 0.5 * section.width - bar.x];
-        let own = strain(at);
+        let strain = strain(at);
         let fy = section.steel.yield_strength;
-        let steel = (section.steel.modulus * own).clamp(-fy, fy);
-        add(bar.area() * (steel - compressed(own)), at);
+        let steel = (section.steel.modulus * strain).clamp(-fy, fy);
+        add(bar.area() * (steel - compressed(strain)), at);
     }
     sum
 }
@@ -212,9 +212,9 @@ fn bending_in_one_plane_is_a_part_of_it() {
 /// The section turned by a quarter bears the same with both moments exchanged.
 #[test]
 fn a_turned_section_bears_turned_moments() {
-    let own = section("3 d16 top, 4 d25 bottom, 4 d12 sides", 0.4, 0.6);
+    let uneven = section("3 d16 top, 4 d25 bottom, 4 d12 sides", 0.4, 0.6);
     let even = section("10 d25", 0.3, 0.6);
-    for (section, tolerance) in [(&even, 2e-3), (&own, 2e-2)] {
+    for (section, tolerance) in [(&even, 2e-3), (&uneven, 2e-2)] {
         let [one, other] = [surface(section), surface(&section.turned())];
         for step in 0..48 {
             let angle = f64::from(step) * PI / 24.0;
@@ -242,12 +242,12 @@ fn the_formula_of_en_1992_lies_inside() {
         for share in [0.0, 0.1, 0.3, 0.5, 0.7] {
             let compression = share * most;
             let exponent = 1.0 + 0.5 * ((share - 0.1) / 0.6).clamp(0.0, 1.0);
-            let own = [&planes[0][0], &planes[1][0]].map(|own| own.moment(compression));
+            let moment = [&planes[0][0], &planes[1][0]].map(|plane| plane.moment(compression));
             for step in 0..=10 {
                 let part = f64::from(step) / 10.0;
                 let moments = [
-                    own[0] * part.powf(1.0 / exponent),
-                    own[1] * (1.0 - part).powf(1.0 / exponent),
+                    moment[0] * part.powf(1.0 / exponent),
+                    moment[1] * (1.0 - part).powf(1.0 / exponent),
                 ];
                 let ratio = surface.ratio(compression, moments);
                 assert!(

@@ -75,8 +75,11 @@ impl Motions {
             let spectrum = response_spectrum(record, &periods, &[0.05], Reading::Between);
             let spectrum = spectrum.map_err(|fault| fault.to_string())?;
             let curve = spectrum.curves.first();
-            let values = curve.map_or(&[][..], |own| &own.pseudo_acceleration);
-            let logs: f64 = values.iter().map(|own| libm::log(*own)).sum();
+            let values = curve.map_or(&[][..], |curve| &curve.pseudo_acceleration);
+            let logs: f64 = values
+                .iter()
+                .map(|pseudo_acceleration| libm::log(*pseudo_acceleration))
+                .sum();
             Ok(libm::exp(logs / values.len().max(1) as f64))
         };
         self.records.iter().map(of).collect()

@@ -82,10 +82,13 @@ fn again(
     let options = Options::for_tolerance(file.tolerance);
     let found = both_ways(&row, &motions.all[case.motion], &options, stop)
         .map_err(|problem| format!("{}, run again in full: {problem}", pair.name()))?;
-    let greatest = |own: &mut dyn Iterator<Item = f64>| own.fold(0.0, f64::max);
+    let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     Ok(found.map(|found| {
-        let own = pair.own_place();
-        let heights = row.buildings[own].storeys.iter().map(|own| own.height);
+        let own_place = pair.own_place();
+        let heights = row.buildings[own_place]
+            .storeys
+            .iter()
+            .map(|storey| storey.height);
         let heights: Vec<f64> = heights.collect();
         let ratio = |drifts: &[f64]| {
             greatest(
@@ -99,11 +102,11 @@ fn again(
         Checked {
             case: at,
             drift: [
-                ratio(&found.batch.buildings[own].drift),
-                ratio(&found.drift[own]),
+                ratio(&found.batch.buildings[own_place].drift),
+                ratio(&found.drift[own_place]),
             ],
             force: [
-                greatest(&mut forces.map(|own| own.force)),
+                greatest(&mut forces.map(|force| force.force)),
                 greatest(&mut found.force.iter().flatten().copied()),
             ],
         }

@@ -55,8 +55,8 @@ pub(super) fn curves(
     // Cases lie pair by pair.
     let of_pair = cases.len() / pairs.len().max(1);
     let fits = asked.par_iter().map(|&(pair, gap, state)| {
-        let own = &cases[pair * of_pair..(pair + 1) * of_pair];
-        (!stop()).then(|| curve(file, &pairs[pair], own, (pair, gap, state)))
+        let cases = &cases[pair * of_pair..(pair + 1) * of_pair];
+        (!stop()).then(|| curve(file, &pairs[pair], cases, (pair, gap, state)))
     });
     fits.collect()
 }
@@ -71,7 +71,7 @@ fn curve(
     let mut groups: Vec<Vec<(f64, bool)>> = Vec::new();
     // Without contact every gap has the same numbers: take those of the first.
     let width = gap.unwrap_or(file.gaps[0]);
-    for case in cases.iter().filter(|own| own.gap == width) {
+    for case in cases.iter().filter(|case| case.gap == width) {
         let demand = if gap.is_some() { case.with } else { case.alone };
         groups.resize(groups.len().max(case.motion + 1), Vec::new());
         groups[case.motion].push((case.intensity, demand.drift >= threshold));
@@ -94,8 +94,8 @@ fn curve(
         .levels
         .iter()
         .map(|level| {
-            let at = outcomes.iter().filter(|own| own.0 == *level);
-            let reached = at.clone().filter(|own| own.1).count();
+            let at = outcomes.iter().filter(|outcome| outcome.0 == *level);
+            let reached = at.clone().filter(|outcome| outcome.1).count();
             (*level, at.count(), reached)
         })
         .collect();
@@ -115,6 +115,6 @@ fn curve(
         counts,
         misfit,
         cases: outcomes.len(),
-        reached: outcomes.iter().filter(|own| own.1).count(),
+        reached: outcomes.iter().filter(|outcome| outcome.1).count(),
     }
 }

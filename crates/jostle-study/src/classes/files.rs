@@ -102,7 +102,7 @@ pub fn write_classes(
 
 /// Columns that name a pair, for a list of pairs.
 fn pair_columns(results: &ClassesResults, pairs: &[usize]) -> Vec<(String, Values)> {
-    let own = |at: &usize| &results.pairs[*at];
+    let pair = |at: &usize| &results.pairs[*at];
     let text = |name: &str, of: &dyn Fn(&usize) -> String| {
         (
             name.to_owned(),
@@ -114,17 +114,17 @@ fn pair_columns(results: &ClassesResults, pairs: &[usize]) -> Vec<(String, Value
         (name.to_owned(), Values::Whole(all.collect()))
     };
     vec![
-        text("pair", &|at| own(at).name()),
-        text("class", &|at| own(at).own.class.name.to_string()),
-        text("level", &|at| own(at).own.class.level.name().to_owned()),
-        whole("storeys", &|at| own(at).own.storeys),
-        text("neighbour", &|at| own(at).neighbour.class.name.to_string()),
+        text("pair", &|at| pair(at).name()),
+        text("class", &|at| pair(at).own.class.name.to_string()),
+        text("level", &|at| pair(at).own.class.level.name().to_owned()),
+        whole("storeys", &|at| pair(at).own.storeys),
+        text("neighbour", &|at| pair(at).neighbour.class.name.to_string()),
         text("neighbour_level", &|at| {
-            own(at).neighbour.class.level.name().to_owned()
+            pair(at).neighbour.class.level.name().to_owned()
         }),
-        whole("neighbour_storeys", &|at| own(at).neighbour.storeys),
-        text("alignment", &|at| alignment(own(at).half_up).to_owned()),
-        text("position", &|at| position(own(at).middle).to_owned()),
+        whole("neighbour_storeys", &|at| pair(at).neighbour.storeys),
+        text("alignment", &|at| alignment(pair(at).half_up).to_owned()),
+        text("position", &|at| position(pair(at).middle).to_owned()),
     ]
 }
 
@@ -138,37 +138,39 @@ const fn position(middle: bool) -> &'static str {
 
 fn case_columns(results: &ClassesResults) -> Vec<(String, Values)> {
     let cases = &results.cases;
-    let pairs: Vec<usize> = cases.iter().map(|own| own.pair).collect();
+    let pairs: Vec<usize> = cases.iter().map(|case| case.pair).collect();
     let mut columns = pair_columns(results, &pairs);
-    let motions = cases.iter().map(|own| results.motions[own.motion].clone());
+    let motions = cases
+        .iter()
+        .map(|case| results.motions[case.motion].clone());
     columns.push(("motion".into(), Values::Text(motions.collect())));
     let mut real = |name: &str, of: &dyn Fn(&super::Case) -> f64| {
         columns.push((name.into(), Values::Real(cases.iter().map(of).collect())));
     };
-    real("intensity_m_s2", &|own| own.intensity);
-    real("scale", &|own| own.scale);
-    real("gap_m", &|own| own.gap);
-    real("closing_without_contact_m", &|own| own.closing);
-    real("drift_without_contact", &|own| own.alone.drift);
-    real("drift", &|own| own.with.drift);
-    real("acceleration_without_contact_m_s2", &|own| {
-        own.alone.acceleration
+    real("intensity_m_s2", &|case| case.intensity);
+    real("scale", &|case| case.scale);
+    real("gap_m", &|case| case.gap);
+    real("closing_without_contact_m", &|case| case.closing);
+    real("drift_without_contact", &|case| case.alone.drift);
+    real("drift", &|case| case.with.drift);
+    real("acceleration_without_contact_m_s2", &|case| {
+        case.alone.acceleration
     });
-    real("acceleration_m_s2", &|own| own.with.acceleration);
-    real("peak_force_n", &|own| own.force);
+    real("acceleration_m_s2", &|case| case.with.acceleration);
+    real("peak_force_n", &|case| case.force);
     let mut whole = |name: &str, of: &dyn Fn(&super::Case) -> usize| {
-        let all = cases.iter().map(|own| Some(of(own) as i32));
+        let all = cases.iter().map(|case| Some(of(case) as i32));
         columns.push((name.into(), Values::Whole(all.collect())));
     };
-    whole("draw", &|own| own.draw);
-    whole("impact_count", &|own| own.impacts as usize);
-    whole("strikes_column", &|own| usize::from(own.column));
+    whole("draw", &|case| case.draw);
+    whole("impact_count", &|case| case.impacts as usize);
+    whole("strikes_column", &|case| usize::from(case.column));
     columns
 }
 
 fn curve_columns(results: &ClassesResults) -> Vec<(String, Values)> {
     let curves = &results.curves;
-    let pairs: Vec<usize> = curves.iter().map(|own| own.pair).collect();
+    let pairs: Vec<usize> = curves.iter().map(|curve| curve.pair).collect();
     let mut columns = pair_columns(results, &pairs);
     let mut optional = |name: &str, of: &dyn Fn(&Fragility) -> Option<f64>| {
         columns.push((
@@ -176,50 +178,65 @@ fn curve_columns(results: &ClassesResults) -> Vec<(String, Values)> {
             Values::Instant(curves.iter().map(of).collect()),
         ));
     };
-    optional("gap_m", &|own| own.gap);
-    optional("drift_threshold", &|own| Some(own.threshold));
-    let fit = |own: &Fragility| own.fit.as_ref().ok().copied();
-    optional("median_m_s2", &|own| Some(fit(own)?.median));
-    optional("median_g", &|own| Some(fit(own)?.median / STANDARD_GRAVITY));
-    optional("dispersion", &|own| Some(fit(own)?.dispersion));
+    optional("gap_m", &|curve| curve.gap);
+    optional("drift_threshold", &|curve| Some(curve.threshold));
+    let fit = |fragility: &Fragility| fragility.fit.as_ref().ok().copied();
+    optional("median_m_s2", &|curve| Some(fit(curve)?.median));
+    optional("median_g", &|curve| {
+        Some(fit(curve)?.median / STANDARD_GRAVITY)
+    });
+    optional("dispersion", &|curve| Some(fit(curve)?.dispersion));
     for (at, end) in ["low", "high"].into_iter().enumerate() {
-        optional(&format!("median_{end}_m_s2"), &|own| {
-            Some(own.band.as_ref()?.median[at])
+        optional(&format!("median_{end}_m_s2"), &|curve| {
+            Some(curve.band.as_ref()?.median[at])
         });
-        optional(&format!("dispersion_{end}"), &|own| {
-            Some(own.band.as_ref()?.dispersion[at])
+        optional(&format!("dispersion_{end}"), &|curve| {
+            Some(curve.band.as_ref()?.dispersion[at])
         });
     }
-    let of_group = |own: &Fragility| {
+    let of_group = |fragility: &Fragility| {
         let group = results
             .curves
             .chunks(STATES.len())
-            .position(|curves| (curves[0].pair, curves[0].gap) == (own.pair, own.gap));
+            .position(|curves| (curves[0].pair, curves[0].gap) == (fragility.pair, fragility.gap));
         results.shared.get(group?)?.as_ref().ok()
     };
-    optional("shared_median_m_s2", &|own| {
-        Some(of_group(own)?.medians[own.state])
+    optional("shared_median_m_s2", &|curve| {
+        Some(of_group(curve)?.medians[curve.state])
     });
-    optional("shared_dispersion", &|own| Some(of_group(own)?.dispersion));
-    optional("greatest_misfit", &|own| own.misfit);
+    optional("shared_dispersion", &|curve| {
+        Some(of_group(curve)?.dispersion)
+    });
+    optional("greatest_misfit", &|curve| curve.misfit);
     let factors = (0..curves.len()).map(|at| results.pounding_factor(at));
     columns.push(("pounding_factor".into(), Values::Instant(factors.collect())));
     let mut whole = |name: &str, of: &dyn Fn(&Fragility) -> usize| {
-        let all = curves.iter().map(|own| Some(of(own) as i32));
+        let all = curves.iter().map(|curve| Some(of(curve) as i32));
         columns.push((name.into(), Values::Whole(all.collect())));
     };
-    whole("cases", &|own| own.cases);
-    whole("cases_in_state", &|own| own.reached);
+    whole("cases", &|curve| curve.cases);
+    whole("cases_in_state", &|curve| curve.reached);
     let text = |of: &dyn Fn(&Fragility) -> String| Values::Text(curves.iter().map(of).collect());
-    columns.push(("state".into(), text(&|own| STATES[own.state].to_owned())));
+    columns.push((
+        "state".into(),
+        text(&|curve| STATES[curve.state].to_owned()),
+    ));
     columns.push((
         "contact".into(),
-        text(&|own| if own.gap.is_some() { "with" } else { "without" }.to_owned()),
+        text(&|curve| {
+            if curve.gap.is_some() {
+                "with"
+            } else {
+                "without"
+            }
+            .to_owned()
+        }),
     ));
     columns.push((
         "note".into(),
-        text(&|own| {
-            own.fit
+        text(&|curve| {
+            curve
+                .fit
                 .as_ref()
                 .err()
                 .map_or_else(String::new, ToString::to_string)
@@ -246,12 +263,12 @@ fn whole_groups<'a>(
     for (curves, shared) in all.zip(&results.shared) {
         match shared {
             Err(reason) => left_out.push(format!("{}: {reason}", group_name(results, &curves[0]))),
-            Ok(own) => {
+            Ok(common_fit) => {
                 let fit = |median| Lognormal {
                     median,
-                    dispersion: own.dispersion,
+                    dispersion: common_fit.dispersion,
                 };
-                groups.push(curves.iter().zip(own.medians.map(fit)).collect());
+                groups.push(curves.iter().zip(common_fit.medians.map(fit)).collect());
             }
         }
     }
@@ -263,17 +280,17 @@ fn range(file: &ClassesFile, results: &ClassesResults) -> [f64; 2] {
     if let [first, .., last] = file.levels[..] {
         return [first, last];
     }
-    let all = results.cases.iter().map(|own| own.intensity);
-    all.fold([f64::INFINITY, 0.0], |[low, high], own| {
-        [low.min(own), high.max(own)]
+    let all = results.cases.iter().map(|case| case.intensity);
+    all.fold([f64::INFINITY, 0.0], |[low, high], intensity| {
+        [low.min(intensity), high.max(intensity)]
     })
 }
 
 /// Name of a pair and gap, such as `C1L_low_2_URML_pre_2_end_floors_10mm`: OpenQuake takes letters, digits, `_`, `-` and
 /// `:`, at most 75 of them, and Pelicun takes names apart at `-`.
-fn group_name(results: &ClassesResults, own: &Fragility) -> String {
-    let pair = &results.pairs[own.pair];
-    let gap = own.gap.map_or_else(
+fn group_name(results: &ClassesResults, fragility: &Fragility) -> String {
+    let pair = &results.pairs[fragility.pair];
+    let gap = fragility.gap.map_or_else(
         || "alone".to_owned(),
         |gap| format!("{}mm", shown(1e3 * gap).replace('.', "_")),
     );
@@ -304,7 +321,7 @@ fn openquake_measure(file: &ClassesFile, period: f64) -> String {
 
 /// A fragility model of NRML 0.5. Its mean and standard deviation are those of the intensity, in g, not of its logarithm.
 fn nrml(file: &ClassesFile, results: &ClassesResults, groups: &[Group<'_>]) -> String {
-    let [low, high] = range(file, results).map(|own| own / STANDARD_GRAVITY);
+    let [low, high] = range(file, results).map(|intensity| intensity / STANDARD_GRAVITY);
     let mut text = format!(
         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n\
          <fragilityModel id=\"jostle\" assetCategory=\"buildings\" lossCategory=\"structural\">\n\
@@ -322,12 +339,12 @@ fn nrml(file: &ClassesFile, results: &ClassesResults, groups: &[Group<'_>]) -> S
              <imls imt=\"{imt}\" noDamageLimit=\"0\" minIML=\"{low}\" maxIML=\"{high}\"/>",
             group_name(results, first)
         );
-        for (own, fit) in group {
+        for (curve, fit) in group {
             let [mean, deviation] = moments(*fit);
             let _ = writeln!(
                 text,
                 "<params ls=\"{}\" mean=\"{mean}\" stddev=\"{deviation}\"/>",
-                STATES[own.state]
+                STATES[curve.state]
             );
         }
         text.push_str("</fragilityFunction>\n");
@@ -394,9 +411,9 @@ fn checked(results: &ClassesResults) -> String {
     let mut text =
         "case,drift_batch,drift_full,drift_deviation,force_batch_n,force_full_n,force_deviation\n"
             .to_owned();
-    for own in &results.checked {
-        let ([drift, force], [a, b], [c, d]) = (own.deviations(), own.drift, own.force);
-        let _ = writeln!(text, "{},{a},{b},{drift},{c},{d},{force}", own.case);
+    for check in &results.checked {
+        let ([drift, force], [a, b], [c, d]) = (check.deviations(), check.drift, check.force);
+        let _ = writeln!(text, "{},{a},{b},{drift},{c},{d},{force}", check.case);
     }
     text
 }
@@ -406,44 +423,44 @@ fn page(file: &ClassesFile, results: &ClassesResults) -> Value {
     let pairs: Vec<Value> = results
         .pairs
         .iter()
-        .map(|own| {
+        .map(|pair| {
             let class = |of: &super::pair::Member| format!("{} {}", of.kind, of.class.level.name());
             json!({
-                "class": class(&own.own), "storeys": own.own.storeys,
-                "neighbour": class(&own.neighbour), "beside": own.neighbour.storeys,
-                "alignment": alignment(own.half_up), "position": position(own.middle),
+                "class": class(&pair.own), "storeys": pair.own.storeys,
+                "neighbour": class(&pair.neighbour), "beside": pair.neighbour.storeys,
+                "alignment": alignment(pair.half_up), "position": position(pair.middle),
             })
         })
         .collect();
     let mut touching: BTreeMap<(usize, u64), [usize; 3]> = BTreeMap::new();
     for case in &results.cases {
-        let own = touching.entry((case.pair, case.gap.to_bits())).or_default();
-        own[0] += 1;
-        own[1] += usize::from(case.impacts > 0);
-        own[2] += usize::from(case.column);
+        let touching = touching.entry((case.pair, case.gap.to_bits())).or_default();
+        touching[0] += 1;
+        touching[1] += usize::from(case.impacts > 0);
+        touching[2] += usize::from(case.column);
     }
     let curves: Vec<Value> = results
         .curves
         .iter()
         .enumerate()
-        .map(|(at, own)| {
-            let fit = own.fit.as_ref().ok();
-            let touched = own.gap.and_then(|gap| touching.get(&(own.pair, gap.to_bits())));
+        .map(|(at, curve)| {
+            let fit = curve.fit.as_ref().ok();
+            let touched = curve.gap.and_then(|gap| touching.get(&(curve.pair, gap.to_bits())));
             json!({
-                "pair": own.pair, "gap": own.gap, "state": own.state,
+                "pair": curve.pair, "gap": curve.gap, "state": curve.state,
                 "median": fit.map(|fit| fit.median / STANDARD_GRAVITY),
                 "dispersion": fit.map(|fit| fit.dispersion),
-                "interval": own.band.as_ref().map(|band| band.median.map(|own| own / STANDARD_GRAVITY)),
+                "interval": curve.band.as_ref().map(|band| band.median.map(|curve| curve / STANDARD_GRAVITY)),
                 "factor": results.pounding_factor(at),
-                "counts": own.counts.iter().map(|(level, cases, reached)| json!([level / STANDARD_GRAVITY, cases, reached])).collect::<Vec<_>>(),
-                "cases": own.cases, "reached": own.reached,
-                "touching": touched.map(|own| own[1] as f64 / own[0] as f64),
-                "columns": touched.map(|own| own[2] as f64 / own[0] as f64),
-                "note": own.fit.as_ref().err().map(ToString::to_string),
+                "counts": curve.counts.iter().map(|(level, cases, reached)| json!([level / STANDARD_GRAVITY, cases, reached])).collect::<Vec<_>>(),
+                "cases": curve.cases, "reached": curve.reached,
+                "touching": touched.map(|curve| curve[1] as f64 / curve[0] as f64),
+                "columns": touched.map(|curve| curve[2] as f64 / curve[0] as f64),
+                "note": curve.fit.as_ref().err().map(ToString::to_string),
             })
         })
         .collect();
-    let [low, high] = range(file, results).map(|own| own / STANDARD_GRAVITY);
+    let [low, high] = range(file, results).map(|intensity| intensity / STANDARD_GRAVITY);
     let [drift, force] = results.worst_deviations();
     json!({
         "pairs": pairs, "curves": curves, "gaps": file.gaps, "states": STATES,

@@ -55,13 +55,13 @@ pub(crate) fn pairs(file: &ClassesFile, types: &Types) -> Result<Vec<Pair>, Inpu
     let owns = members(file, types, &file.class)?;
     let neighbours = members(file, types, &file.neighbour)?;
     let mut pairs = Vec::new();
-    for own in &owns {
+    for member in &owns {
         for neighbour in &neighbours {
             for &half_up in &file.half_storey_up {
                 for &middle in &file.in_the_middle {
-                    let (own, neighbour) = (own.clone(), neighbour.clone());
+                    let (member, neighbour) = (member.clone(), neighbour.clone());
                     pairs.push(Pair {
-                        own,
+                        own: member,
                         neighbour,
                         half_up,
                         middle,
@@ -94,7 +94,7 @@ fn members(
             // Two names may lead to one class.
             if !members
                 .iter()
-                .any(|own: &Member| own.name() == member.name())
+                .any(|candidate: &Member| candidate.name() == member.name())
             {
                 members.push(member);
             }
@@ -112,12 +112,12 @@ impl Member {
 
     /// First period \[s\].
     pub(crate) fn period(&self) -> f64 {
-        let own = &self.class;
-        let coefficients = own.capacity.coefficients(
-            own.typical_storeys,
-            own.pinching,
-            own.unloading_exponent,
-            own.damping,
+        let class = &self.class;
+        let coefficients = class.capacity.coefficients(
+            class.typical_storeys,
+            class.pinching,
+            class.unloading_exponent,
+            class.damping,
         );
         coefficients.period_per_storey * self.storeys as f64
     }
@@ -129,7 +129,7 @@ impl Member {
 
     /// The building of a draw; `place` tells equal buildings of one row apart.
     fn building(&self, area: f64, scatter: [f64; 3], place: u8, draw: u64) -> Building {
-        let mut own = self.class.building(self.storeys, area);
+        let mut building = self.class.building(self.storeys, area);
         let id = hash(&self.name()) ^ u64::from(place);
         let [stiffness, strength, damping] = ["stiffness", "strength", "damping"].map(|what| {
             let of = match what {
@@ -139,16 +139,16 @@ impl Member {
             };
             lognormal(id, draw, what, of)
         });
-        for storey in &mut own.storeys {
+        for storey in &mut building.storeys {
             storey.stiffness *= stiffness;
             // Corners are forces over stiffness.
             storey.first_corner *= strength / stiffness;
             storey.second_corner *= strength / stiffness;
         }
         // Frequencies grow with the root of the stiffness: α = 2ζω₁ω₃/(ω₁+ω₃), β = 2ζ/(ω₁+ω₃).
-        own.alpha *= damping * stiffness.sqrt();
-        own.beta *= damping / stiffness.sqrt();
-        own
+        building.alpha *= damping * stiffness.sqrt();
+        building.beta *= damping / stiffness.sqrt();
+        building
     }
 }
 
@@ -179,7 +179,7 @@ impl Pair {
     /// The row of a draw.
     pub(crate) fn row(&self, file: &ClassesFile, draw: Draw) -> Row {
         let (area, scatter, number) = (file.area, file.scatter, draw.number);
-        let own = self.own.building(area, scatter, 0, number);
+        let building = self.own.building(area, scatter, 0, number);
         let beside = |place| self.neighbour.building(area, scatter, place, number);
         let up = if self.half_up {
             0.5 * self.neighbour.class.storey_height
@@ -194,8 +194,8 @@ impl Pair {
             restitution: file.restitution,
         });
         let right = beside(1);
-        let mut gaps = vec![Gap::between(&own, &right, width, law, up)];
-        let mut buildings = vec![own, right];
+        let mut gaps = vec![Gap::between(&building, &right, width, law, up)];
+        let mut buildings = vec![building, right];
         if self.middle {
             let left = beside(2);
             gaps.insert(0, Gap::between(&left, &buildings[0], width, law, -up));

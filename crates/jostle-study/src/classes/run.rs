@@ -126,7 +126,7 @@ fn run_here(
             options: &options,
             stop,
         };
-        let Some(alone) = batch.peaks(draws.iter().map(|own| own.1))? else {
+        let Some(alone) = batch.peaks(draws.iter().map(|draw| draw.1))? else {
             return Ok(None);
         };
         rows += alone.len();
@@ -158,17 +158,17 @@ fn run_here(
             }
         }
         debug_assert_eq!(cases.len() - first, draws.len() * file.gaps.len());
-        let Some(with) = batch.peaks(touching.iter().map(|own| own.1))? else {
+        let Some(with) = batch.peaks(touching.iter().map(|touching| touching.1))? else {
             return Ok(None);
         };
         rows += with.len();
         for ((case, _), peaks) in touching.iter().zip(&with) {
-            let own = &mut cases[*case];
-            own.with = demand(pair, peaks);
+            let case = &mut cases[*case];
+            case.with = demand(pair, peaks);
             let contacts = || peaks.gaps.iter().flatten();
-            own.force = contacts().map(|own| own.force).fold(0.0, f64::max);
-            own.impacts = contacts().map(|own| own.impacts).sum();
-            own.column = contacts().any(|own| own.column && own.impacts > 0);
+            case.force = contacts().map(|contact| contact.force).fold(0.0, f64::max);
+            case.impacts = contacts().map(|contact| contact.impacts).sum();
+            case.column = contacts().any(|contact| contact.column && contact.impacts > 0);
         }
         progress(at + 1, pairs.len());
     }
@@ -200,15 +200,15 @@ fn run_here(
 
 fn warn_of_storeys(pairs: &[Pair], warnings: &mut Vec<String>) {
     for pair in pairs {
-        for own in [&pair.own, &pair.neighbour] {
+        for building in [&pair.own, &pair.neighbour] {
             let text = format!(
                 "{}: {} storeys lie outside {} to {}, for which the table means the type",
-                own.class.name,
-                own.storeys,
-                own.class.storeys.start(),
-                own.class.storeys.end()
+                building.class.name,
+                building.storeys,
+                building.class.storeys.start(),
+                building.class.storeys.end()
             );
-            if !own.is_usual() && !warnings.contains(&text) {
+            if !building.is_usual() && !warnings.contains(&text) {
                 warnings.push(text);
             }
         }
@@ -293,16 +293,16 @@ impl Batch<'_> {
 fn closing(peaks: &Peaks) -> f64 {
     let contacts = peaks.gaps.iter().flatten();
     contacts
-        .map(|own| own.closing)
+        .map(|contact| contact.closing)
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Greatest response of the class of a pair.
 pub(super) fn demand(pair: &Pair, peaks: &Peaks) -> Demand {
-    let own = &peaks.buildings[pair.own_place()];
+    let building = &peaks.buildings[pair.own_place()];
     let greatest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     Demand {
-        drift: greatest(&own.drift) / pair.own.class.storey_height,
-        acceleration: greatest(&own.acceleration),
+        drift: greatest(&building.drift) / pair.own.class.storey_height,
+        acceleration: greatest(&building.acceleration),
     }
 }

@@ -30,9 +30,9 @@ pub(super) fn shared(
     let of_pair = cases.len() / pairs.max(1);
     let groups = curves.par_chunks(STATES.len()).map(|states| {
         let first = &states[0];
-        let own = &cases[first.pair * of_pair..(first.pair + 1) * of_pair];
+        let cases = &cases[first.pair * of_pair..(first.pair + 1) * of_pair];
         let width = first.gap.unwrap_or(file.gaps[0]);
-        let demands: Vec<(f64, f64)> = own
+        let demands: Vec<(f64, f64)> = cases
             .iter()
             .filter(|case| case.gap == width)
             .map(|case| {
@@ -46,11 +46,11 @@ pub(super) fn shared(
             .collect();
         let one_sided = states
             .iter()
-            .find(|own| own.reached == 0 || own.reached == own.cases);
-        if let Some(own) = one_sided {
+            .find(|state| state.reached == 0 || state.reached == state.cases);
+        if let Some(state) = one_sided {
             return Err(format!(
                 "{} damage in {} of {} cases: the intensities do not bracket it",
-                STATES[own.state], own.reached, own.cases
+                STATES[state.state], state.reached, state.cases
             ));
         }
         fit(&demands, states)
@@ -62,11 +62,11 @@ pub(super) fn shared(
 fn fit(demands: &[(f64, f64)], states: &[Fragility]) -> Result<Shared, String> {
     let low = demands
         .iter()
-        .map(|own| own.0)
+        .map(|demand| demand.0)
         .fold(f64::INFINITY, f64::min);
     let high = demands
         .iter()
-        .map(|own| own.0)
+        .map(|demand| demand.0)
         .fold(f64::NEG_INFINITY, f64::max);
     let span = [low - libm::log(BEYOND), high + libm::log(BEYOND)];
     let likelihood = |threshold: f64, median: f64, dispersion: f64| -> f64 {
@@ -82,8 +82,8 @@ fn fit(demands: &[(f64, f64)], states: &[Fragility]) -> Result<Shared, String> {
         demands.iter().map(one).sum()
     };
     let medians = |dispersion: f64| {
-        let each = states.iter().map(|own| {
-            let of = |median: f64| likelihood(own.threshold, median, dispersion);
+        let each = states.iter().map(|state| {
+            let of = |median: f64| likelihood(state.threshold, median, dispersion);
             let at = greatest(span, of);
             (at, of(at))
         });
@@ -91,7 +91,7 @@ fn fit(demands: &[(f64, f64)], states: &[Fragility]) -> Result<Shared, String> {
     };
     let bounds = DISPERSIONS.map(libm::log);
     let best = greatest(bounds, |log| {
-        medians(libm::exp(log)).iter().map(|own| own.1).sum()
+        medians(libm::exp(log)).iter().map(|median| median.1).sum()
     });
     if (best - bounds[0]).abs() < 1e-3 || (best - bounds[1]).abs() < 1e-3 {
         return Err("no scatter to fit a dispersion".into());
@@ -166,7 +166,7 @@ mod tests {
         // One state alone has the curve of the probit regression.
         let outcomes: Vec<(f64, bool)> = demands
             .iter()
-            .map(|own| (libm::exp(own.0), own.1 >= 0.8))
+            .map(|demand| (libm::exp(demand.0), demand.1 >= 0.8))
             .collect();
         let probit =
             crate::statistics::fit_lognormal(&outcomes).unwrap_or_else(|error| panic!("{error}"));

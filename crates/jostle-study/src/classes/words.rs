@@ -9,7 +9,7 @@ impl ClassesResults {
     /// What was run, how good the batches are, and how much pounding moves medians.
     #[must_use]
     pub fn text(&self) -> String {
-        let touching = self.cases.iter().filter(|own| own.impacts > 0).count();
+        let touching = self.cases.iter().filter(|case| case.impacts > 0).count();
         let mut text = format!(
             "{} pairs, {} motions, {} cases, {} rows stepped; impacts in {} cases\n",
             self.pairs.len(),
@@ -26,7 +26,7 @@ impl ClassesResults {
                 self.checked.len(),
             );
         }
-        let fitted = self.curves.iter().filter(|own| own.fit.is_ok()).count();
+        let fitted = self.curves.iter().filter(|curve| curve.fit.is_ok()).count();
         let _ = writeln!(text, "{fitted} of {} curves fitted", self.curves.len());
         for (state, name) in STATES.iter().enumerate() {
             let factors: Vec<f64> = (0..self.curves.len())
@@ -56,12 +56,11 @@ impl ClassesResults {
     /// state about sooner. `None` if either has no curve.
     #[must_use]
     pub fn pounding_factor(&self, curve: usize) -> Option<f64> {
-        let own = self.curves.get(curve)?;
-        own.gap?;
-        let alone = self
-            .curves
-            .iter()
-            .find(|other| (other.pair, other.gap, other.state) == (own.pair, None, own.state))?;
-        Some(own.fit.as_ref().ok()?.median / alone.fit.as_ref().ok()?.median)
+        let curve = self.curves.get(curve)?;
+        curve.gap?;
+        let alone = self.curves.iter().find(|other| {
+            (other.pair, other.gap, other.state) == (curve.pair, None, curve.state)
+        })?;
+        Some(curve.fit.as_ref().ok()?.median / alone.fit.as_ref().ok()?.median)
     }
 }

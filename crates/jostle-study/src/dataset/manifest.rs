@@ -174,11 +174,11 @@ impl Manifest {
             base,
         )?;
         let study = Study::new(file)?;
-        let own = Self::new(&study);
-        if self.is_same(&own) {
+        let manifest = Self::new(&study);
+        if self.is_same(&manifest) {
             return Ok(study);
         }
-        Err(self.refusal(&own, folder))
+        Err(self.refusal(&manifest, folder))
     }
 
     /// Whether two manifests are about the same study, wherever it was read from.
@@ -191,16 +191,16 @@ impl Manifest {
         *self == other
     }
 
-    fn refusal(&self, own: &Self, folder: &Path) -> StudyError {
+    fn refusal(&self, manifest: &Self, folder: &Path) -> StudyError {
         StudyError::Folder(format!(
             "{} holds {}: {}; choose another folder with --out, or remove this one",
             folder.display(),
-            if self.study_sha256 == own.study_sha256 {
+            if self.study_sha256 == manifest.study_sha256 {
                 "results of another kind"
             } else {
                 "another study"
             },
-            self.difference(own)
+            self.difference(manifest)
         ))
     }
 
@@ -240,7 +240,7 @@ pub(crate) fn settle_for_part(study: &Study, folder: &Path) -> Result<(), StudyE
         std::fs::create_dir_all(&path)
             .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
     }
-    let own = Manifest::new(study);
+    let manifest = Manifest::new(study);
     let mut found = Manifest::load(folder)?;
     if found.is_none() && has_parts(folder) {
         // Another process may have begun in between.
@@ -253,8 +253,12 @@ pub(crate) fn settle_for_part(study: &Study, folder: &Path) -> Result<(), StudyE
         }
     }
     match found {
-        Some(mut known) if known.is_same(&own) => {
-            if own.builds.iter().all(|build| known.builds.contains(build)) {
+        Some(mut known) if known.is_same(&manifest) => {
+            if manifest
+                .builds
+                .iter()
+                .all(|build| known.builds.contains(build))
+            {
                 return Ok(());
             }
             if !study.any_build {
@@ -262,14 +266,14 @@ pub(crate) fn settle_for_part(study: &Study, folder: &Path) -> Result<(), StudyE
                     "{} was computed by another build of jostle ({}; this is {}), whose results may differ; choose another folder with --out, or add --any-build to go on all the same",
                     folder.display(),
                     known.builds.join(", "),
-                    own.builds.join(", ")
+                    manifest.builds.join(", ")
                 )));
             }
-            known.builds.extend(own.builds);
+            known.builds.extend(manifest.builds);
             known.write(folder)
         }
-        Some(known) => Err(known.refusal(&own, folder)),
-        None => own.write(folder),
+        Some(known) => Err(known.refusal(&manifest, folder)),
+        None => manifest.write(folder),
     }
 }
 

@@ -31,12 +31,12 @@ impl Table {
     /// Adds some rows of another table.
     pub(crate) fn take_rows(&mut self, other: &Self, rows: &[usize]) {
         for (name, values) in &other.numbers {
-            let own = self.numbers.entry(name.clone()).or_default();
-            own.extend(rows.iter().map(|row| values.get(*row).copied().flatten()));
+            let numbers = self.numbers.entry(name.clone()).or_default();
+            numbers.extend(rows.iter().map(|row| values.get(*row).copied().flatten()));
         }
         for (name, values) in &other.texts {
-            let own = self.texts.entry(name.clone()).or_default();
-            own.extend(
+            let texts = self.texts.entry(name.clone()).or_default();
+            texts.extend(
                 rows.iter()
                     .map(|row| values.get(*row).cloned().unwrap_or_default()),
             );

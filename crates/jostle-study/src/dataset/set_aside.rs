@@ -60,14 +60,16 @@ fn free_name(folder: &Path, path: &Path, label: &str) -> io::Result<PathBuf> {
 
 /// Parquet files among the parts whose names belong to no part of the study, sorted.
 pub(crate) fn strangers(study: &Study, folder: &Path) -> Vec<PathBuf> {
-    let own: HashSet<PathBuf> = (0..study.parts())
+    let part_path: HashSet<PathBuf> = (0..study.parts())
         .map(|part| part_path(folder, study.part(part).start))
         .collect();
     let entries = std::fs::read_dir(folder.join("cases"));
     let paths = entries.into_iter().flatten().flatten();
     let mut strangers: Vec<PathBuf> = paths
         .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|e| e == "parquet") && !own.contains(path))
+        .filter(|path| {
+            path.extension().is_some_and(|e| e == "parquet") && !part_path.contains(path)
+        })
         .collect();
     strangers.sort();
     strangers

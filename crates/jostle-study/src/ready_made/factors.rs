@@ -89,8 +89,8 @@ fn measured(number: f64, unit: &str) -> String {
 
 impl Spread {
     /// Around 1, or around a value in its unit.
-    fn distribution(self, (own, unit): (f64, &str)) -> String {
-        let at = |share: f64| measured(rounded(own * share), unit);
+    fn distribution(self, (value, unit): (f64, &str)) -> String {
+        let at = |share: f64| measured(rounded(value * share), unit);
         match self {
             Self::Uniform(share) => format!(
                 "distribution = {{ kind = \"uniform\", from = {}, to = {} }}",
@@ -115,8 +115,8 @@ impl Spread {
 }
 
 /// A list of multiples of a value; the value itself stays as it is.
-fn values_around(own: f64, multiples: &[f64], unit: &str) -> String {
-    let times = |k: &f64| if *k == 1.0 { own } else { rounded(own * k) };
+fn values_around(value: f64, multiples: &[f64], unit: &str) -> String {
+    let times = |k: &f64| if *k == 1.0 { value } else { rounded(value * k) };
     let numbers = multiples.iter().map(|k| measured(times(k), unit));
     format!("values = [{}]", numbers.collect::<Vec<_>>().join(", "))
 }
@@ -206,7 +206,7 @@ pub(super) fn widths(input: &Input, multiples: &[f64], notes: &mut Vec<String>) 
     let open = open_gaps(input, notes);
     let first = gaps.first()?.width();
     let same = |gap: &Gap| gap.widths.len() == 1 && gap.width() == first;
-    let list = |unit: &str, own: f64| values_around(own, multiples, unit);
+    let list = |unit: &str, value: f64| values_around(value, multiples, unit);
     if open.is_empty() {
         return None;
     }
@@ -230,24 +230,24 @@ pub(super) fn shaking(
     multiples: &[f64],
     notes: &mut Vec<String>,
 ) -> Option<Block> {
-    let list = |unit: &str, own: f64| values_around(own, multiples, unit);
+    let list = |unit: &str, value: f64| values_around(value, multiples, unit);
     // In g where the model states its peak in g.
-    let in_g = tree.values("motion.pga").iter().any(|own| {
-        let TreeValue::Text(text) = own else {
+    let in_g = tree.values("motion.pga").iter().any(|tree| {
+        let TreeValue::Text(text) = tree else {
             return false;
         };
         text.trim_end()
             .strip_suffix('g')
-            .is_some_and(|own| own.trim_end().parse::<f64>().is_ok())
+            .is_some_and(|strip_suffix| strip_suffix.trim_end().parse::<f64>().is_ok())
     });
-    let by_peak = |own: f64| match in_g {
-        true => Block::plain("pga", "motion.pga", &list("g", own / STANDARD_GRAVITY)),
-        false => Block::plain("pga", "motion.pga", &list("m/s2", own)),
+    let by_peak = |value: f64| match in_g {
+        true => Block::plain("pga", "motion.pga", &list("g", value / STANDARD_GRAVITY)),
+        false => Block::plain("pga", "motion.pga", &list("m/s2", value)),
     };
     let scaling = input.motion.as_ref().map(|motion| &motion.scaling)?;
     let several = input.records().len() > 1;
     match scaling {
-        Scaling::Pga(own) => return Some(by_peak(*own)),
+        Scaling::Pga(pga) => return Some(by_peak(*pga)),
         Scaling::Match(_) if stands(tree, "motion.match.value") => {
             return Some(Block {
                 name: "match".to_owned(),
@@ -256,8 +256,8 @@ pub(super) fn shaking(
                 values: list("", 1.0),
             });
         }
-        Scaling::Factor(own) if !several => {
-            return Some(Block::plain("scale", "motion.scale", &list("", *own)));
+        Scaling::Factor(factor) if !several => {
+            return Some(Block::plain("scale", "motion.scale", &list("", *factor)));
         }
         Scaling::AsRecorded if !several => {
             return Some(Block::plain("scale", "motion.scale", &list("", 1.0)));

@@ -108,8 +108,8 @@ pub fn finish(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyEr
 fn written(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError> {
     let mut wanted: Vec<&str> = ALWAYS.to_vec();
     wanted.extend(study.layout.inputs.iter().map(|column| &column.name[..]));
-    let own = needed::columns(study);
-    wanted.extend(own.iter().map(|name| &name[..]));
+    let columns = needed::columns(study);
+    wanted.extend(columns.iter().map(|name| &name[..]));
     for fragility in &study.file.fragilities {
         wanted.extend([&fragility.intensity[..], &fragility.demand]);
     }

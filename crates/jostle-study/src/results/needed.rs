@@ -36,10 +36,10 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
     let beside = beside.into_iter().flatten();
     let beside = beside.map(|building| &input.model.buildings[building].name);
     let all = beside.flat_map(|name| {
-        let own = format!("{name}.");
+        let text = format!("{name}.");
         let names = study.layout.results.iter().map(|column| &column.name);
         names.filter(move |column| {
-            column.strip_prefix(&own).is_some_and(|rest| {
+            column.strip_prefix(&text).is_some_and(|rest| {
                 let place = rest.starts_with("floor") || rest.starts_with("isolation_");
                 let ends = ["max_m", "min_m"].iter().any(|end| rest.ends_with(end));
                 place && ends && rest.contains("displacement_")
@@ -75,14 +75,14 @@ impl Results<'_> {
             let (mut needed, mut between) = (Vec::new(), Vec::new());
             let mut of_rules: [Vec<[f64; 2]>; DRAWN.len()] = Default::default();
             for (level, most) in levels.iter().zip(&mut most) {
-                let own = || {
+                let cases = || {
                     cases
                         .iter()
                         .filter(|case| intensities[**case] == Some(*level))
                 };
-                let hit = own().filter(|case| impacts[**case].is_some_and(|count| count > 0.0));
+                let hit = cases().filter(|case| impacts[**case].is_some_and(|count| count > 0.0));
                 let hit = hit.filter_map(|case| gaps[*case]).fold(-1.0, f64::max);
-                let free = own()
+                let free = cases()
                     .filter(|case| impacts[**case] == Some(0.0))
                     .filter_map(|case| gaps[*case])
                     .filter(|gap| *gap > hit)
@@ -96,7 +96,7 @@ impl Results<'_> {
                     continue;
                 }
                 // All records and draws alike: the same cases at every intensity.
-                let apart = own().filter(|case| gaps[**case] == Some(widest));
+                let apart = cases().filter(|case| gaps[**case] == Some(widest));
                 if let Some(rules) = &rules
                     && apart.clone().all(|case| impacts[*case] == Some(0.0))
                 {
@@ -165,15 +165,17 @@ impl Results<'_> {
                 count => message::the_greatest_of_combinations(count),
             },
         ));
-        let of_rules = series.iter().filter(|own| own.stroke == Stroke::Dashed);
+        let of_rules = series
+            .iter()
+            .filter(|series| series.stroke == Stroke::Dashed);
         let in_unit = |name: &str| format!("{name} [{}]", LENGTH.name());
         let mut heads = vec![axis.name.clone(), in_unit(message::needed_gap())];
-        heads.extend(of_rules.clone().map(|own| in_unit(&own.name)));
+        heads.extend(of_rules.clone().map(|rule| in_unit(&rule.name)));
         let rows = levels.iter().zip(&most).map(|(level, gap)| {
             let x = size * level;
             let mut row = vec![intensity(*level), width(*gap)];
-            row.extend(of_rules.clone().map(|own| {
-                let point = own.points.iter().find(|point| point[0] == x);
+            row.extend(of_rules.clone().map(|rule| {
+                let point = rule.points.iter().find(|point| point[0] == x);
                 point.map_or("–".into(), |point| LENGTH.rounded_up(point[1] / gap_size))
             }));
             row

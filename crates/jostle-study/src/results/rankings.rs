@@ -70,9 +70,9 @@ impl Results<'_> {
             let values = self.table.column(response).to_vec();
             let (axis, size) = words::axis(response);
             let mut centre = 0.0;
-            let mut own: Vec<Line> = Vec::new();
+            let mut response_lines: Vec<Line> = Vec::new();
             let mut push = |factor: usize, numbers: [f64; 2], limits: Option<[[f64; 2]; 2]>| {
-                own.push(Line {
+                response_lines.push(Line {
                     response: response.clone(),
                     factor: file.factors[factor].name.clone(),
                     numbers,
@@ -120,7 +120,7 @@ impl Results<'_> {
                     }
                 }
             }
-            if own.is_empty() {
+            if response_lines.is_empty() {
                 silent.push(response.clone());
                 continue;
             }
@@ -130,7 +130,7 @@ impl Results<'_> {
                 _ if sampled => line.numbers[0],
                 _ => line.numbers[0],
             };
-            sort_by(&mut own, |a, b| weight(b).total_cmp(&weight(a)));
+            sort_by(&mut response_lines, |a, b| weight(b).total_cmp(&weight(a)));
             let shares = sampled || kind == DesignKind::Saltelli;
             let size = if shares { 1.0 } else { size };
             bars.push(Bars {
@@ -144,7 +144,7 @@ impl Results<'_> {
                     axis
                 },
                 centre: size * centre,
-                bars: own
+                bars: response_lines
                     .iter()
                     .map(|line| Bar {
                         name: line.factor.clone(),
@@ -154,7 +154,7 @@ impl Results<'_> {
                     .collect(),
                 legend: legend.map(|name| name.replace('_', " ")),
             });
-            lines.extend(own);
+            lines.extend(response_lines);
         }
         let limit = |which: usize, end: usize| {
             let all = lines.iter().map(|line| Some(line.limits?[which][end]));

@@ -173,8 +173,8 @@ impl Results<'_> {
                 0 | 1 => owner.to_owned(),
                 _ => curve.group.clone(),
             };
-            let mut own = rose.petals.iter();
-            let known = own
+            let mut petals = rose.petals.iter();
+            let known = petals
                 .find(|petal| petal.name == name)
                 .map(|petal| petal.colour);
             let colour = known.unwrap_or_else(|| {

@@ -9,17 +9,17 @@ use jostle_report::message;
 
 /// Endings of column names: the size of the display unit, and its name.
 fn units() -> [(&'static str, f64, &'static str); 10] {
-    let own = |ending, shown: Shown| (ending, shown.of(1.0), shown.name());
+    let form = |ending, shown: Shown| (ending, shown.of(1.0), shown.name());
     [
-        own("_m_s2", GROUND_ACCELERATION),
-        own("_n_m", MOMENT),
+        form("_m_s2", GROUND_ACCELERATION),
+        form("_n_m", MOMENT),
         ("_rad", 1e3, "mrad"),
-        own("_n_s", IMPULSE),
+        form("_n_s", IMPULSE),
         ("_per_s", 1.0, "1/s"),
-        own("_kg", MASS),
-        own("_n", FORCE),
-        own("_j", ENERGY),
-        own("_m", LENGTH),
+        form("_kg", MASS),
+        form("_n", FORCE),
+        form("_j", ENERGY),
+        form("_m", LENGTH),
         ("_s", 1.0, "s"),
     ]
 }

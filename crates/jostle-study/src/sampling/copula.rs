@@ -31,17 +31,17 @@ impl Copula {
         }
         let mut factor: Vec<Vec<f64>> = Vec::new();
         for (i, row) in matrix.iter().enumerate() {
-            let mut own: Vec<f64> = Vec::new();
+            let mut factor_row: Vec<f64> = Vec::new();
             for j in 0..i {
-                let done: f64 = own.iter().zip(&factor[j]).map(|(a, b)| a * b).sum();
-                own.push((row[j] - done) / factor[j][j]);
+                let done: f64 = factor_row.iter().zip(&factor[j]).map(|(a, b)| a * b).sum();
+                factor_row.push((row[j] - done) / factor[j][j]);
             }
-            let pivot = 1.0 - own.iter().map(|x| x * x).sum::<f64>();
+            let pivot = 1.0 - factor_row.iter().map(|x| x * x).sum::<f64>();
             if pivot <= 1e-12 {
                 return Err(CopulaError);
             }
-            own.push(pivot.sqrt());
-            factor.push(own);
+            factor_row.push(pivot.sqrt());
+            factor.push(factor_row);
         }
         Ok(Self { factor })
     }

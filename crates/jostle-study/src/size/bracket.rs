@@ -57,7 +57,7 @@ pub(super) fn search(
             .filter(|point| {
                 known
                     .iter()
-                    .all(|(own, _)| (own - point).abs() > 0.1 * SAME_POINT)
+                    .all(|(candidate, _)| (candidate - point).abs() > 0.1 * SAME_POINT)
             })
             .collect();
         if between.is_empty() || known.len() + between.len() > trials || !go_on() {

@@ -213,16 +213,16 @@ impl<'a> Names<'a> {
         if let Some(place) = self.layout.place(name) {
             return Some((Source::Results(vec![place]), suffix()));
         }
-        let (kind, own) = name.split_once('.')?;
+        let (kind, quantity) = name.split_once('.')?;
         // The greatest magnitude of the history `….force_n` of links.
-        let own = if (kind, own) == ("link", "force_n") {
+        let quantity = if (kind, quantity) == ("link", "force_n") {
             "force_peak_n"
         } else {
-            own
+            quantity
         };
         let of_kind = |column: &str| {
             let Some(place) = column
-                .strip_suffix(own)
+                .strip_suffix(quantity)
                 .and_then(|rest| rest.strip_suffix('.'))
             else {
                 return false;

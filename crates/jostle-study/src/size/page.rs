@@ -100,15 +100,15 @@ impl SizeResults {
 
     fn trade_off_section(&self, index: usize) -> Section {
         let condition = &self.conditions[index];
-        let (size, own) = (
+        let (size, left_size) = (
             shown(&self.objective.suffix).1,
             shown(&condition.left.suffix).1,
         );
         let front = self.trade_off(index);
         let front = front
             .iter()
-            .map(|[left, objective]| [own * left, size * objective]);
-        let mut all = self.dots(|trial| Some(own * trial.kept[index]?), [0, 6]);
+            .map(|[left, objective]| [left_size * left, size * objective]);
+        let mut all = self.dots(|trial| Some(left_size * trial.kept[index]?), [0, 6]);
         all.push(series(
             message::least_of_front(),
             front.collect(),

@@ -9,7 +9,7 @@ use super::SizeResults;
 
 /// Unit in which numbers with the end of such a name are shown, and its size.
 pub(super) fn shown(suffix: &str) -> (&'static str, f64) {
-    let own = match suffix {
+    let unit = match suffix {
         "_m" => LENGTH,
         "_n" => FORCE,
         "_n_m" => MOMENT,
@@ -22,7 +22,7 @@ pub(super) fn shown(suffix: &str) -> (&'static str, f64) {
         "_hz" => return ("Hz", 1.0),
         _ => return ("", 1.0),
     };
-    (own.name(), own.of(1.0))
+    (unit.name(), unit.of(1.0))
 }
 
 /// A number with its unit, five digits.
@@ -55,14 +55,14 @@ pub(super) fn number(value: f64, suffix: &str) -> String {
 /// A least value in words: rounded up, so that what it meets is met, to one decimal or three digits.
 fn rounded_up(value: f64, suffix: &str) -> String {
     let (unit, size) = shown(suffix);
-    let own = size * value;
-    let decimals = if own == 0.0 || own.abs() >= 1.0 {
+    let shown_value = size * value;
+    let decimals = if shown_value == 0.0 || shown_value.abs() >= 1.0 {
         1
     } else {
-        (2 - libm::log10(own.abs()).floor() as i32).clamp(1, 9)
+        (2 - libm::log10(shown_value.abs()).floor() as i32).clamp(1, 9)
     };
     let steps = libm::pow(10.0, f64::from(decimals));
-    let up = (own * steps - 1e-6).ceil() / steps;
+    let up = (shown_value * steps - 1e-6).ceil() / steps;
     format!("{up:.*} {unit}", decimals as usize)
         .trim_end()
         .to_owned()

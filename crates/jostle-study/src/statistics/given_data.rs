@@ -38,8 +38,8 @@ pub fn given_data(
     let between: f64 = classes
         .iter()
         .map(|class| {
-            let own = class.iter().map(|pair| pair[1]).sum::<f64>() / class.len() as f64;
-            class.len() as f64 * (own - mean).powi(2)
+            let class_mean = class.iter().map(|pair| pair[1]).sum::<f64>() / class.len() as f64;
+            class.len() as f64 * (class_mean - mean).powi(2)
         })
         .sum();
     // What classes without any influence explain by chance.

@@ -23,8 +23,9 @@ pub(super) fn findings(records: &[RecordResult]) -> Vec<Finding> {
     let all: Vec<Found<'_>> = records.iter().flat_map(of_record).collect();
     let mut merged: Vec<Finding> = Vec::new();
     for found in &all {
-        let is_same =
-            |own: &Finding| own.name == found.finding.name && own.place == found.finding.place;
+        let is_same = |finding: &Finding| {
+            finding.name == found.finding.name && finding.place == found.finding.place
+        };
         if merged.iter().any(is_same) {
             continue;
         }

@@ -168,8 +168,8 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
                     format!("{place}{middle}.displacement_peak_m"),
                     displacement(owner),
                 );
-                for (key, own) in FLOOR {
-                    add(format!("{place}{middle}.{own}"), owner[key].as_f64());
+                for (key, name) in FLOOR {
+                    add(format!("{place}{middle}.{name}"), owner[key].as_f64());
                 }
             }
         }
@@ -261,8 +261,12 @@ mod tests {
             { "name": "B" },
         ] });
         let all = quantities(&summary);
-        let found = all.iter().filter(|own| own.name.contains("capacity"));
-        let found: Vec<(&str, f64)> = found.map(|own| (&own.name[..], own.value)).collect();
+        let found = all
+            .iter()
+            .filter(|quantity| quantity.name.contains("capacity"));
+        let found: Vec<(&str, f64)> = found
+            .map(|quantity| (&quantity.name[..], quantity.value))
+            .collect();
         assert_eq!(
             found,
             [("A.capacity_ratio", 1.25), ("A.capacity_exceeded", 3.0)]

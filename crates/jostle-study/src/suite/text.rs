@@ -25,7 +25,7 @@ pub(super) struct Shown {
 
 /// The form of a quantity by the unit at the end of its name.
 pub(super) fn shown(name: &str) -> Shown {
-    let own = |end, unit: shown::Shown, decimals| {
+    let form = |end, unit: shown::Shown, decimals| {
         (end, unit.of(1.0), unit.name(), unit.decimals(decimals))
     };
     let forms: [(&str, f64, &str, usize); 14] = [
@@ -33,11 +33,11 @@ pub(super) fn shown(name: &str) -> Shown {
         ("drift_across_peak", 100.0, "%", 3),
         ("drift_corner_peak", 100.0, "%", 3),
         ("_rad", 1e3, "mrad", 2),
-        own("_m_s2", ACCELERATION, 2),
-        own("moment_peak_n_m", MOMENT, 0),
-        own("torque_peak_n_m", MOMENT, 0),
-        own("_n", FORCE, 1),
-        own("_m", LENGTH, 1),
+        form("_m_s2", ACCELERATION, 2),
+        form("moment_peak_n_m", MOMENT, 0),
+        form("torque_peak_n_m", MOMENT, 0),
+        form("_n", FORCE, 1),
+        form("_m", LENGTH, 1),
         ("impact_count", 1.0, "", 1),
         ("hinges_yielded", 1.0, "", 1),
         ("ductility", 1.0, "", 2),

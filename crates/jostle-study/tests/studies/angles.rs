@@ -172,23 +172,23 @@ fn turning_the_site_turns_the_rose() {
         "A.base_torque_peak_without_contact_n_m",
         "A-B.closing_without_contact_m",
     ];
-    let [own, turned] = [false, true].map(|turned| {
+    let [original, turned] = [false, true].map(|turned| {
         let study = made(&pair(turned), &every(30.0));
         results(&study, &folder.path().join(turned.to_string()), names)
     });
     let greatest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     assert!(
-        own[1].iter().any(|impacts| *impacts > 0.0),
+        original[1].iter().any(|impacts| *impacts > 0.0),
         "there is contact"
     );
     for (quantity, name) in names.iter().enumerate() {
-        let scale = greatest(&own[quantity]);
+        let scale = greatest(&original[quantity]);
         for case in 0..12 {
-            let (here, there) = (own[quantity][case], turned[quantity][(case + 3) % 12]);
+            let (here, there) = (original[quantity][case], turned[quantity][(case + 3) % 12]);
             assert_near(here, there, scale, 2e-6, &format!("{name}, case {case}"));
         }
     }
-    let torque = &own[4];
+    let torque = &original[4];
     for case in 0..6 {
         let (here, there) = (torque[case], torque[case + 6]);
         assert_near(here, there, greatest(torque), 1e-9, "half a circle on");

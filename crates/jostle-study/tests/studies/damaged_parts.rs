@@ -156,13 +156,13 @@ fn a_part_cut_short_anywhere_is_computed_again() {
 
 #[test]
 fn a_part_of_another_study_is_set_aside() {
-    let (own, other) = (study(7), study(8));
-    let (folder, table, second) = finished(&own);
+    let (one, other) = (study(7), study(8));
+    let (folder, table, second) = finished(&one);
     let (_keep, foreign, _) = finished(&other);
     let name = "part-0000000016.parquet";
     assert_ne!(foreign[name], table[name]);
     std::fs::write(&second, &foreign[name]).expect("written");
-    let (done, remarks) = go(&own, folder.path(), &RunSettings::default());
+    let (done, remarks) = go(&one, folder.path(), &RunSettings::default());
     assert!(done.complete && done.progress.computed == 16);
     assert!(
         remarks.len() == 1 && remarks[0].contains("belongs to another study"),
@@ -205,16 +205,16 @@ fn a_part_under_the_name_of_another_is_set_aside() {
 /// The share that finishes a study verifies the parts of the others too.
 #[test]
 fn parts_of_other_shares_are_verified_before_the_study_counts_as_complete() {
-    let (own, other) = (study(7), study(8));
-    let (_first, table, _) = finished(&own);
+    let (one, other) = (study(7), study(8));
+    let (_first, table, _) = finished(&one);
     let folder = tempfile::tempdir().expect("a folder");
     let foreign = tempfile::tempdir().expect("a folder");
-    go(&own, folder.path(), &shard(0, 2));
+    go(&one, folder.path(), &shard(0, 2));
     go(&other, foreign.path(), &shard(1, 2));
     for (name, bytes) in files(foreign.path().join("cases")) {
         std::fs::write(folder.path().join("cases").join(name), bytes).expect("written");
     }
-    let (done, remarks) = go(&own, folder.path(), &shard(0, 2));
+    let (done, remarks) = go(&one, folder.path(), &shard(0, 2));
     assert!(!done.complete, "half of the parts are of another study");
     assert_eq!(remarks.len(), 2, "{remarks:?}");
     assert!(
@@ -223,7 +223,7 @@ fn parts_of_other_shares_are_verified_before_the_study_counts_as_complete() {
             .all(|text| text.contains("belongs to another study"))
     );
     assert!(remarks.iter().all(|text| text.contains("run the share")));
-    let (done, remarks) = go(&own, folder.path(), &shard(1, 2));
+    let (done, remarks) = go(&one, folder.path(), &shard(1, 2));
     assert!(done.complete && remarks.is_empty(), "{remarks:?}");
     assert!(files(folder.path().join("cases")) == table);
     let left = files(folder.path().join("under-way"));

@@ -93,27 +93,27 @@ fn a_study_has_the_bearings_of_single_runs() {
         assert_eq!(has("force_across_peak_n"), plan == PLAN, "{names:?}");
         let table = read_columns(&study, &out, &names).unwrap_or_else(|error| panic!("{error}"));
         for (case, strength) in ["120 kN", "200 kN"].into_iter().enumerate() {
-            let own =
+            let single =
                 single(&text.replace("yield = \"200 kN\"", &format!("yield = \"{strength}\"")));
-            let peak = own.displacement_max_m.max(-own.displacement_min_m);
-            let stroke = own.in_plan.map_or(peak, |plan| plan.stroke_peak_m);
-            let left = own
+            let peak = single.displacement_max_m.max(-single.displacement_min_m);
+            let stroke = single.in_plan.map_or(peak, |plan| plan.stroke_peak_m);
+            let left = single
                 .in_plan
-                .map_or(own.residual_m.abs(), |plan| plan.residual_stroke_m);
+                .map_or(single.residual_m.abs(), |plan| plan.residual_stroke_m);
             let expected = [
                 ("stroke_peak_m", Some(stroke)),
                 ("residual_stroke_m", Some(left)),
-                ("force_peak_n", Some(own.force_peak_n)),
-                ("hysteretic_j", Some(own.hysteretic_j)),
-                ("damped_j", Some(own.damped_j)),
-                ("stop_force_peak_n", own.stop_force_peak_n),
+                ("force_peak_n", Some(single.force_peak_n)),
+                ("hysteretic_j", Some(single.hysteretic_j)),
+                ("damped_j", Some(single.damped_j)),
+                ("stop_force_peak_n", single.stop_force_peak_n),
                 (
                     "stroke_ratio",
                     more.contains("limit").then_some(stroke / 0.25),
                 ),
                 (
                     "force_across_peak_n",
-                    own.in_plan.map(|plan| plan.force_across_peak_n),
+                    single.in_plan.map(|plan| plan.force_across_peak_n),
                 ),
             ];
             for (name, value) in expected.into_iter().filter(|(name, _)| has(name)) {
@@ -161,8 +161,8 @@ fn size_keeps_bearings_within_their_limit() {
     let found = found.unwrap_or_else(|error| panic!("{error}"));
     let best = found.best().expect("one that keeps it");
     let strength = best.inputs[0].0.expect("a number");
-    let own = single(&text.replace("yield = \"200 kN\"", &format!("yield = {strength}")));
-    let ratio = own.stroke_ratio().expect("a limit");
+    let isolation = single(&text.replace("yield = \"200 kN\"", &format!("yield = {strength}")));
+    let ratio = isolation.stroke_ratio().expect("a limit");
     assert!(ratio <= 1.0 && ratio > 0.97, "{strength}: {ratio}");
     let less = single(&text.replace("yield = \"200 kN\"", &format!("yield = {}", 0.9 * strength)));
     assert!(less.stroke_ratio() > Some(1.0));

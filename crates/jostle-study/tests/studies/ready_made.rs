@@ -70,13 +70,13 @@ fn the_middle_of_a_tornado_is_the_model_itself() {
     for text in [OWN, &bare] {
         let (study, notes) = made("tornado", text);
         assert!(notes.is_empty(), "{notes:?}");
-        let own = tree(text).input().expect("a model");
+        let input = tree(text).input().expect("a model");
         let middle = model(&study, 0);
-        assert_eq!(middle.model, own.model);
-        assert_eq!(middle.motion, own.motion);
+        assert_eq!(middle.model, input.model);
+        assert_eq!(middle.motion, input.motion);
         // Every factor changes the model both ways.
         for case in 1..study.design.cases {
-            assert_ne!(model(&study, case).model, own.model, "case {case}");
+            assert_ne!(model(&study, case).model, input.model, "case {case}");
         }
         let names: Vec<&str> = study
             .file
@@ -115,7 +115,7 @@ fn every_study_keeps_the_records_and_says_what_it_varies() {
             (&two, &["nanjing-artificial", "el-centro-1940-ns"]),
         ] {
             let (study, _) = made(name, text);
-            let own = tree(text).input().expect("a model").model;
+            let base_model = tree(text).input().expect("a model").model;
             let (mut seen, mut itself) = (Vec::new(), false);
             for case in 0..study.design.cases.min(700) {
                 let input = model(&study, case);
@@ -124,7 +124,7 @@ fn every_study_keeps_the_records_and_says_what_it_varies() {
                     MotionSource::Record { .. } => {}
                     other => panic!("{name}: {other:?}"),
                 }
-                itself |= input.model.gaps == own.gaps;
+                itself |= input.model.gaps == base_model.gaps;
             }
             seen.sort();
             let mut records = records.to_vec();

@@ -64,8 +64,8 @@ fn count() -> usize {
     scanned(300) / 6
 }
 
-fn scan(own: u64, seed: &[u8], share: usize, try_one: &dyn Fn(&[u8])) {
-    let mut dice = Dice::new(own);
+fn scan(sequence: u64, seed: &[u8], share: usize, try_one: &dyn Fn(&[u8])) {
+    let mut dice = Dice::new(sequence);
     for _ in 0..count() / share {
         let damaged = dice.damage(seed);
         let survived = catch_unwind(AssertUnwindSafe(|| try_one(&damaged)));
@@ -124,12 +124,12 @@ fn damaged_folders_are_refused_or_used() {
         &|_| {},
     );
     assert!(done.expect("a run").complete);
-    for (own, name) in ["manifest.json", "cases/part-0000000000.parquet"]
+    for (index, name) in ["manifest.json", "cases/part-0000000000.parquet"]
         .into_iter()
         .enumerate()
     {
         let whole = std::fs::read(folder.join(name)).expect("a file");
-        scan(10 + own as u64, &whole, 8, &|bytes| {
+        scan(10 + index as u64, &whole, 8, &|bytes| {
             inputs::results(folder, name, bytes);
         });
         std::fs::write(folder.join(name), &whole).expect("a file");

@@ -136,9 +136,9 @@ fn two_runs_on_one_folder_share_the_work() {
     let folder = temporary();
     let (first, second) = std::thread::scope(|scope| {
         let other = scope.spawn(|| go(&study, folder.path(), &jobs(1)));
-        let own = go(&study, folder.path(), &jobs(1));
+        let go = go(&study, folder.path(), &jobs(1));
         (
-            own,
+            go,
             other
                 .join()
                 .unwrap_or_else(|_| panic!("the other run failed")),

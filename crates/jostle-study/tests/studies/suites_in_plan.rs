@@ -39,7 +39,7 @@ fn results(turned: bool) -> SuiteResults {
 
 #[test]
 fn directions_change_their_names_with_the_building_and_corners_keep_theirs() {
-    let [own, turned] = [false, true].map(results);
+    let [original, turned] = [false, true].map(results);
     let of = |results: &SuiteResults, name: &str| {
         let found = results.quantity(&format!("A.{name}"));
         found.unwrap_or_else(|| panic!("{name}")).mean
@@ -59,12 +59,12 @@ fn directions_change_their_names_with_the_building_and_corners_keep_theirs() {
         ("corner_displacement_peak_m", "corner_displacement_peak_m"),
     ] {
         for (name, other) in [(name, other), (other, name)] {
-            let (here, there) = (of(&own, name), of(&turned, other));
+            let (here, there) = (of(&original, name), of(&turned, other));
             assert!(here > 0.0, "{name}");
             assert!((here / there - 1.0).abs() < 1e-6, "{name}: {here} {there}");
         }
     }
-    let text = own.plain_text();
+    let text = original.plain_text();
     for part in [
         "A, storey drift across",
         "A, base shear across",

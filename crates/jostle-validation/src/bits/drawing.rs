@@ -181,11 +181,11 @@ pub(super) fn storey_hinges(random: &mut Random, rule: &str) -> Value {
 pub(super) fn frame_hinges(random: &mut Random, rule: &str) -> Value {
     let mut of = |yields: f64| {
         let yields = digits(yields * random.between(0.8, 1.3));
-        let mut own = hinge(random, rule, yields);
+        let mut hinge = hinge(random, rule, yields);
         let shared = ["rule", "gamma", "pinching", "unloading_exponent", "damage"];
-        let keys = own.as_object_mut();
+        let keys = hinge.as_object_mut();
         let shared = keys.map(|keys| shared.map(|key| Some((key, keys.remove(key)?))));
-        (own, shared)
+        (hinge, shared)
     };
     let (column, shared) = of(2e5);
     let (beam, _) = of(1.2e5);

@@ -50,7 +50,11 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
     else {
         return Value::Null;
     };
-    let names: Vec<String> = history.columns().iter().map(|own| name(*own)).collect();
+    let names: Vec<String> = history
+        .columns()
+        .iter()
+        .map(|column| name(*column))
+        .collect();
     let mut sorted = names.clone();
     sorted.sort();
     sorted.dedup();
@@ -59,7 +63,7 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
     let time = history
         .columns()
         .iter()
-        .position(|own| *own == Column::TIME);
+        .position(|column| *column == Column::TIME);
     let at = |row: &[f64]| time.map_or(0.0, |time| row[time]);
     let end = at(&history.row(history.len() - 1));
     let mut spans: [Bits; SPANS] = Default::default();
@@ -75,7 +79,7 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
     let columns: BTreeMap<String, Value> = sorted
         .into_iter()
         .zip(kept)
-        .map(|(name, own)| (name, own.tree()))
+        .map(|(name, column)| (name, column.tree()))
         .collect();
     json!({
         "rows": history.len(),
@@ -124,8 +128,8 @@ fn members(outcome: &Outcome) -> Option<Value> {
     let mut kept = vec![Kept::default(); count];
     let rows = history.times().len();
     for (index, row) in history.rows().enumerate() {
-        for (own, value) in kept.iter_mut().zip(row.iter().flatten()) {
-            own.add(index * PARTS / rows, *value);
+        for (force, value) in kept.iter_mut().zip(row.iter().flatten()) {
+            force.add(index * PARTS / rows, *value);
         }
     }
     let forces: Vec<Value> = kept.into_iter().map(Kept::tree).collect();

@@ -134,12 +134,12 @@ fn yielding(random: &mut Random, number: usize) -> Value {
     pair[0]["hinges"] = hinge(random, rule, yields);
     stand_on_elements(random, &mut pair[1]);
     rule = RULES[number - 15];
-    let mut own = hinge(random, rule, yields);
+    let mut hinge = hinge(random, rule, yields);
     if number == 17 {
-        own["x"] = json!({"yield": digits(0.8 * yields)});
-        own["y"] = json!({"yield": yields});
+        hinge["x"] = json!({"yield": digits(0.8 * yields)});
+        hinge["y"] = json!({"yield": yields});
     }
-    pair[1]["element"][0]["hinges"] = own;
+    pair[1]["element"][0]["hinges"] = hinge;
     pair[1]["element"][0]["name"] = json!("core");
     let gap = gap_in_plan(random, ["A", "B"]);
     whole(random, DURATION, &pair, &[gap])

@@ -61,13 +61,13 @@ fn bearings(random: &mut Random, kind: usize) -> Value {
 /// A neighbour, or a moat wall that gives way or does not.
 fn in_one_plane(random: &mut Random, number: usize) -> Value {
     let storeys = random.whole(2, 4);
-    let mut own = if number == 4 {
+    let mut building = if number == 4 {
         frame(random, "A", 2)
     } else {
         shear(random, "A", storeys)
     };
-    own["isolation"] = bearings(random, number);
-    let mut buildings = vec![own];
+    building["isolation"] = bearings(random, number);
+    let mut buildings = vec![building];
     let mut walls = Vec::new();
     let mut gap = if number % 2 == 1 {
         let mut wall = json!({"name": "moat"});
@@ -95,17 +95,17 @@ fn in_one_plane(random: &mut Random, number: usize) -> Value {
 
 /// The same kinds of bearings below plans, most before two moat walls.
 fn with_plan(random: &mut Random, number: usize) -> Value {
-    let mut own = in_plan(random, "A", 2, [12.0, 9.0], [0.0, 0.0]);
-    own["isolation"] = bearings(random, number - 6);
+    let mut plan = in_plan(random, "A", 2, [12.0, 9.0], [0.0, 0.0]);
+    plan["isolation"] = bearings(random, number - 6);
     if number.is_multiple_of(2) {
-        own["isolation"]["bearings"] = json!([[1, 1], [11, 1], [11, 8], [1, 8], [6, 4.5]]);
+        plan["isolation"]["bearings"] = json!([[1, 1], [11, 1], [11, 8], [1, 8], [6, 4.5]]);
     }
     let width = random.scaled(0.005, 0.02);
     let motion = shaking_in_plan(random, DURATION / 2.0);
     if number == 10 {
         let neighbour = in_plan(random, "B", 2, [8.0, 8.0], [12.0 + width, 0.5]);
         let gap = gap_in_plan(random, ["A", "B"]);
-        return json!({"motion": motion, "building": [own, neighbour], "gap": [gap]});
+        return json!({"motion": motion, "building": [plan, neighbour], "gap": [gap]});
     }
     let wall =
         |name: &str, from: [f64; 2], to: [f64; 2]| json!({"name": name, "from": from, "to": to});
@@ -118,5 +118,5 @@ fn with_plan(random: &mut Random, number: usize) -> Value {
         gap["floors"] = json!([[0, "wall"]]);
         gap
     });
-    json!({"motion": motion, "building": [own], "wall": walls, "gap": gaps})
+    json!({"motion": motion, "building": [plan], "wall": walls, "gap": gaps})
 }

@@ -67,17 +67,17 @@ pub fn compare(folder: &Path, only: &[String]) -> Result<Comparison, String> {
     let (mut results, mut values) = (0, 0);
     for (old, new) in recorded.iter().zip(compute(&chosen)) {
         results += new.len();
-        values += old.iter().map(|own| own.entries.len()).sum::<usize>();
+        values += old.iter().map(|old| old.entries.len()).sum::<usize>();
         let nothing = Entries::new();
-        for own in &new {
-            let on_record = old.iter().find(|other| other.name == own.name);
+        for result in &new {
+            let on_record = old.iter().find(|other| other.name == result.name);
             let on_record = on_record.map_or(&nothing, |other| &other.entries);
-            moved.extend(Moved::find(&own.name, on_record, &own.entries));
+            moved.extend(Moved::find(&result.name, on_record, &result.entries));
         }
         let gone = old
             .iter()
-            .filter(|own| new.iter().all(|other| other.name != own.name));
-        moved.extend(gone.filter_map(|own| Moved::find(&own.name, &own.entries, &nothing)));
+            .filter(|old| new.iter().all(|other| other.name != old.name));
+        moved.extend(gone.filter_map(|gone| Moved::find(&gone.name, &gone.entries, &nothing)));
     }
     Ok(Comparison {
         results,
@@ -165,12 +165,13 @@ mod tests {
             let bytes = std::fs::read(folder.join(family.file())).expect("part of the repository");
             let recorded = unpack(&bytes).expect("a file of results");
             for model in (family.models)() {
-                let own = recorded.iter().filter(|own| {
-                    let name = own.name.strip_prefix(&model.name);
+                let unpack = recorded.iter().filter(|unpack| {
+                    let name = unpack.name.strip_prefix(&model.name);
                     name.is_some_and(|solver| solver.starts_with(' '))
                 });
                 let refused = |path: &str| path == ".refused" || path == ".unread";
-                let mut run = own.filter(|own| own.entries.iter().all(|(path, _)| !refused(path)));
+                let mut run =
+                    unpack.filter(|unpack| unpack.entries.iter().all(|(path, _)| !refused(path)));
                 let problem = model.input.as_ref().err();
                 assert!(run.next().is_some(), "{}: {problem:?}", model.name);
             }

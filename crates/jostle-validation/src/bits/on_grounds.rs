@@ -72,24 +72,24 @@ fn matrices(random: &mut Random) -> Value {
 }
 
 fn matrices_with_damping(random: &mut Random) -> Value {
-    let mut own = given(random, "A");
+    let mut building = given(random, "A");
     let c = random.scaled(2e5, 8e5);
-    own["matrices"]["damping"] =
+    building["matrices"]["damping"] =
         json!([[2.0 * c, -c, 0.0], [-c, 1.2 * c, 0.0], [0.0, 0.0, 3.0 * c]]);
-    if let Some(keys) = own.as_object_mut() {
+    if let Some(keys) = building.as_object_mut() {
         keys.remove("damping");
     }
-    let buildings = [own, frame(random, "B", 2)];
+    let buildings = [building, frame(random, "B", 2)];
     whole(random, &buildings)
 }
 
 fn modes(random: &mut Random) -> Value {
-    let own = json!({
+    let building = json!({
         "name": "A", "kind": "given", "mass": [9e4, 8e4, 7e4], "storey_height": STOREY,
         "periods": [digits(random.between(0.4, 0.7)), digits(random.between(0.12, 0.2))],
         "shapes": [[0.35, 0.7, 1.0], [0.9, 0.6, -0.885]], "damping": {"ratio": 0.05, "modes": [1, 2]},
     });
-    let buildings = [own, shear(random, "B", 3)];
+    let buildings = [building, shear(random, "B", 3)];
     whole(random, &buildings)
 }
 

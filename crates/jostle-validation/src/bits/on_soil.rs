@@ -34,27 +34,27 @@ fn row(random: &mut Random, number: usize) -> Value {
     let names = &["A", "B", "C"][..count];
     let buildings = names.iter().enumerate().map(|(index, name)| {
         let storeys = random.whole(1, 4);
-        let mut own = if index == 1 && number.is_multiple_of(2) {
+        let mut building = if index == 1 && number.is_multiple_of(2) {
             frame(random, name, storeys)
         } else {
             shear(random, name, storeys)
         };
-        own["p_delta"] = json!(random.chance(0.3));
+        building["p_delta"] = json!(random.chance(0.3));
         if number > 9 && index == 0 {
-            own["hinges"] = storey_hinges(random, "bilinear");
+            building["hinges"] = storey_hinges(random, "bilinear");
         }
         // The foundation of a frame is no longer than the frame, lest it reach below a neighbour.
-        let spans = own["spans"].as_array().map_or(12.0, |spans| {
+        let spans = building["spans"].as_array().map_or(12.0, |spans| {
             spans.iter().filter_map(Value::as_f64).sum::<f64>()
         });
-        own["foundation"] = json!({
+        building["foundation"] = json!({
             "length": digits(spans * random.between(0.7, 0.95)), "width": digits(random.between(8.0, 14.0)),
             "mass": random.scaled(6e4, 2e5),
         });
         if still && index == 0 {
-            own["foundation"]["embedment"] = json!(digits(random.between(0.5, 2.0)));
+            building["foundation"]["embedment"] = json!(digits(random.between(0.5, 2.0)));
         }
-        own
+        building
     });
     let buildings: Vec<Value> = buildings.collect();
     let soil = if given {

@@ -46,6 +46,10 @@ impl Pinned {
 /// Cuts the motion of a model to this length, if it is longer \[s\].
 pub(super) fn shorten(input: &mut Input, longest: f64) {
     if let Some(motion) = &mut input.motion {
-        motion.duration = Some(motion.duration.map_or(longest, |own| own.min(longest)));
+        motion.duration = Some(
+            motion
+                .duration
+                .map_or(longest, |duration| duration.min(longest)),
+        );
     }
 }

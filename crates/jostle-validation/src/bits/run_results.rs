@@ -65,7 +65,7 @@ fn prepare(input: &Input, solver: Solver, members: bool) -> Option<Prepared> {
     let mut prepared = opened.prepare().ok()?;
     prepared.check_digits(None).ok()?;
     // One run each, and one for its error: refining steps would take most of the time and pin the same steps again.
-    let yields = |own: &BuildingSystem| !own.equations.springs.is_empty();
+    let yields = |system: &BuildingSystem| !system.equations.springs.is_empty();
     prepared.plan.is_given |= prepared.system.buildings.iter().any(yields);
     Some(prepared)
 }

@@ -168,7 +168,7 @@ pub fn describe(all: &[Certified]) -> String {
         let _ = writeln!(text, "{models} models are refused by {why}");
     }
     let spent: f64 = all.iter().map(|model| model.seconds).sum();
-    let own: f64 = all
+    let seconds: f64 = all
         .iter()
         .flat_map(|model| &model.runs)
         .map(|run| run.seconds)
@@ -176,7 +176,7 @@ pub fn describe(all: &[Certified]) -> String {
     let slowest = all.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let _ = writeln!(
         text,
-        "References took {spent:.0} s (slowest: model {}, {:.1} s), runs {own:.0} s.",
+        "References took {spent:.0} s (slowest: model {}, {:.1} s), runs {seconds:.0} s.",
         slowest.map_or(0, |model| model.number),
         slowest.map_or(0.0, |model| model.seconds)
     );

@@ -68,23 +68,23 @@ fn substitute(t: &DMatrix<f64>, value: C64, first: usize, least: f64, x: &mut [C
             -entries.sum::<C64>()
         };
         let below = load(i, x);
-        let own = t[(i, i)] - value;
+        let one = t[(i, i)] - value;
         if i == 0 || t[(i, i - 1)] == 0.0 {
-            x[i] = below / pivot(own);
+            x[i] = below / pivot(one);
             continue;
         }
         // Two rows at once, by Cramer's rule.
         let above = load(i - 1, x);
         let other = t[(i - 1, i - 1)] - value;
         let (across, back) = (t[(i - 1, i)], t[(i, i - 1)]);
-        let determinant = own * other - across * back;
+        let determinant = one * other - across * back;
         let determinant = if determinant.norm() < least * least {
             C64::new(least * least, 0.0)
         } else {
             determinant
         };
         x[i] = (other * below - above * back) / determinant;
-        x[i - 1] = (own * above - below * across) / determinant;
+        x[i - 1] = (one * above - below * across) / determinant;
         i -= 1;
     }
 }

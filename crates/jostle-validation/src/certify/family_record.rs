@@ -70,20 +70,20 @@ pub fn families_page(old: &str, records: &[Record]) -> Result<String, String> {
          |---|---|---|---|---|---|---|---|---|---|---|---|"
     );
     for (name, row) in &rows {
-        let own = &row.shares;
-        let share = |part: usize| 100.0 * part as f64 / own.all.max(1) as f64;
+        let shares = &row.shares;
+        let share = |part: usize| 100.0 * part as f64 / shares.all.max(1) as f64;
         let _ = writeln!(
             text,
             "| {name} | {} | {} | {} | {:.2} % | {:.2} % | {} | {} | {} | {:.3}× | {} | {} ({:.1} %) |",
             row.models,
             row.runs,
-            own.all,
-            share(own.within),
-            share(own.within_thrice),
-            own.warned,
-            own.silent,
-            own.uncertain,
-            own.worst,
+            shares.all,
+            share(shares.within),
+            share(shares.within_thrice),
+            shares.warned,
+            shares.silent,
+            shares.uncertain,
+            shares.worst,
             row.cut,
             row.false_alarms,
             100.0 * row.false_alarms as f64 / row.runs.max(1) as f64,

@@ -171,7 +171,7 @@ pub(super) fn hold(
         let mut sooner = shorter.clone();
         sooner.duration = end - ENDS_SOONER;
         match true_peaks(system, [&shorter, &sooner]) {
-            Ok((own, ..)) => truth = Arc::new(own),
+            Ok((peaks, ..)) => truth = Arc::new(peaks),
             Err(why) => run.failed = Some(format!("no reference up to {end:.3} s: {why}")),
         }
     }

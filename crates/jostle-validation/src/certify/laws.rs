@@ -116,12 +116,12 @@ impl Law {
                 },
                 None,
             ),
-            ForceLaw::Bilinear(own) => (
+            ForceLaw::Bilinear(bilinear) => (
                 Self::Bilinear {
-                    first: own.first_stiffness,
-                    second: own.second_stiffness,
-                    yields: own.yield_indentation,
-                    follows: own.follows_speed,
+                    first: bilinear.first_stiffness,
+                    second: bilinear.second_stiffness,
+                    yields: bilinear.yield_indentation,
+                    follows: bilinear.follows_speed,
                 },
                 None,
             ),
@@ -143,12 +143,12 @@ impl Law {
             ForceLaw::Crushing(_) => {
                 return Err("faces that crush have their own references".into());
             }
-            ForceLaw::Rubber(own) => (
+            ForceLaw::Rubber(rubber) => (
                 Self::Rubber {
-                    k: own.stiffness,
-                    d: own.damping,
-                    n: own.exponent,
-                    limit: own.limit,
+                    k: rubber.stiffness,
+                    d: rubber.damping,
+                    n: rubber.exponent,
+                    limit: rubber.limit,
                 },
                 None,
             ),

@@ -108,18 +108,18 @@ impl Component {
         let mut alpha = vec![0.0; size];
         for &index in &buildings {
             let building = &system.buildings[index];
-            let (own, at) = (&building.equations, building.offset - offset);
-            if !own.springs.is_empty() {
+            let (equations, at) = (&building.equations, building.offset - offset);
+            if !equations.springs.is_empty() {
                 return Err("yielding is not part of this".into());
             }
-            dense(&own.stiffness, at, 1.0, &mut plain);
-            dense(&own.stiffness, at, own.beta, &mut damped);
-            dense(&own.undamped, at, 1.0, &mut other);
-            dense(&own.dashpots, at, 1.0, &mut dashpots);
-            for dof in 0..own.len() {
-                mass[at + dof] = own.mass[dof];
-                driven[at + dof] = own.driven_mass[dof];
-                alpha[at + dof] = own.alpha;
+            dense(&equations.stiffness, at, 1.0, &mut plain);
+            dense(&equations.stiffness, at, equations.beta, &mut damped);
+            dense(&equations.undamped, at, 1.0, &mut other);
+            dense(&equations.dashpots, at, 1.0, &mut dashpots);
+            for dof in 0..equations.len() {
+                mass[at + dof] = equations.mass[dof];
+                driven[at + dof] = equations.driven_mass[dof];
+                alpha[at + dof] = equations.alpha;
             }
         }
         for link in &system.links {
@@ -162,8 +162,8 @@ impl Component {
         let eliminated = if following.is_empty() {
             DMatrix::zeros(0, rest.len())
         } else {
-            let own = part(&plain, &following, &following);
-            let factor = own.cholesky().ok_or("a joint without stiffness")?;
+            let block = part(&plain, &following, &following);
+            let factor = block.cholesky().ok_or("a joint without stiffness")?;
             -factor.solve(&part(&plain, &following, &rest))
         };
         let condense = |matrix: &DMatrix<f64>| {
@@ -226,14 +226,18 @@ impl Component {
         }
         // Damping of one building that does not couple its modes, without rounding.
         if let [only] = buildings[..] {
-            let own = &system.buildings[only].equations;
-            let bare = own.undamped.is_zero() && system.links.is_empty();
-            if own.dashpots.is_zero() && (bare || own.beta == 0.0) && system.links.is_empty() {
+            let equations = &system.buildings[only].equations;
+            let bare = equations.undamped.is_zero() && system.links.is_empty();
+            if equations.dashpots.is_zero()
+                && (bare || equations.beta == 0.0)
+                && system.links.is_empty()
+            {
                 modal_damping = DMatrix::zeros(nd, nd);
                 for k in 0..nd {
                     let ratio = modal_ratio[0].unwrap_or(0.0);
-                    modal_damping[(k, k)] =
-                        own.alpha + own.beta * omega[k] * omega[k] + 2.0 * ratio * omega[k];
+                    modal_damping[(k, k)] = equations.alpha
+                        + equations.beta * omega[k] * omega[k]
+                        + 2.0 * ratio * omega[k];
                 }
             }
         }
@@ -318,12 +322,12 @@ impl Component {
                 let half = 0.5 * modal_damping[(k, k)];
                 let square = omega[k] * omega[k] - half * half;
                 if square > 0.0 {
-                    let own = square.sqrt();
-                    lambda.push(C64::new(-half, own));
-                    list.push((k, C64::new(0.0, -1.0 / own)));
+                    let square = square.sqrt();
+                    lambda.push(C64::new(-half, square));
+                    list.push((k, C64::new(0.0, -1.0 / square)));
                 } else {
-                    let own = (-square).sqrt();
-                    let fast = -half - own;
+                    let square = (-square).sqrt();
+                    let fast = -half - square;
                     let slow = omega[k] * omega[k] / fast;
                     lambda.extend([C64::new(slow, 0.0), C64::new(fast, 0.0)]);
                     list.push((k, C64::new(1.0 / (slow - fast), 0.0)));

@@ -289,7 +289,7 @@ pub(super) fn usual(seed: u64, number: u64) -> Drawn {
     let mut gaps = Vec::new();
     for k in 1..count {
         // Rows have one law; others may have several.
-        let own = if row || random.chance(0.6) {
+        let gap_law = if row || random.chance(0.6) {
             law
         } else {
             LAWS[random.below(LAWS.len())]
@@ -297,7 +297,7 @@ pub(super) fn usual(seed: u64, number: u64) -> Drawn {
         gaps.push(gap(
             &mut random,
             [&format!("B{k}"), &format!("B{}", k + 1)],
-            own,
+            gap_law,
         ));
     }
     if kind == "wall" {

@@ -81,7 +81,8 @@ fn springs(random: &mut Random, _seed: u64, _number: u64) -> Drawn {
     let count = random.whole(1, 2);
     let (mut buildings, mut period) = (Vec::new(), 1.0);
     for k in 1..=count {
-        let (mut tree, own) = building(random, &format!("B{k}"), height, 6, false, true);
+        let (mut tree, building_period) =
+            building(random, &format!("B{k}"), height, 6, false, true);
         let mut base = Map::new();
         base.insert("vertical_stiffness".into(), json!(random.scaled(1e8, 3e9)));
         base.insert(
@@ -105,7 +106,7 @@ fn springs(random: &mut Random, _seed: u64, _number: u64) -> Drawn {
             tree["damping"]["modes"] = json!([1]);
         }
         buildings.push(tree);
-        period = own;
+        period = building_period;
     }
     let law = LAWS[random.below(LAWS.len())];
     let right = if count == 1 { "wall" } else { "B2" };
@@ -119,9 +120,9 @@ fn columns(random: &mut Random, _seed: u64, _number: u64) -> Drawn {
     let (mut buildings, mut period) = (Vec::new(), 1.0);
     for k in 1..=2 {
         let height = digits(random.between(2.8, 3.3) + 0.6 * f64::from(k - 1));
-        let (tree, own) = building(random, &format!("B{k}"), height, 4, false, true);
+        let (tree, building_period) = building(random, &format!("B{k}"), height, 4, false, true);
         buildings.push(tree);
-        period = own;
+        period = building_period;
     }
     let law = LAWS[random.below(LAWS.len())];
     let mut gap = gap(random, ["B1", "B2"], law);

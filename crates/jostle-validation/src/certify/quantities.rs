@@ -84,16 +84,28 @@ fn listed(system: &System) -> Vec<usize> {
 pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
     let mut list = Vec::new();
     let most = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    for (building, own) in system.buildings.iter().zip(&peaks.buildings) {
+    for (building, building_peaks) in system.buildings.iter().zip(&peaks.buildings) {
         let name = &building.name;
-        let reach = most(&own.most).max(most(&own.least));
+        let reach = most(&building_peaks.most).max(most(&building_peaks.least));
         for (kind, values, scale) in [
-            ("displacement max", &own.most, reach),
-            ("displacement min", &own.least, reach),
-            ("drift", &own.drift, most(&own.drift)),
-            ("acceleration", &own.acceleration, most(&own.acceleration)),
-            ("storey shear", &own.storey_shear, most(&own.storey_shear)),
-            ("overturning moment", &own.moment, most(&own.moment)),
+            ("displacement max", &building_peaks.most, reach),
+            ("displacement min", &building_peaks.least, reach),
+            ("drift", &building_peaks.drift, most(&building_peaks.drift)),
+            (
+                "acceleration",
+                &building_peaks.acceleration,
+                most(&building_peaks.acceleration),
+            ),
+            (
+                "storey shear",
+                &building_peaks.storey_shear,
+                most(&building_peaks.storey_shear),
+            ),
+            (
+                "overturning moment",
+                &building_peaks.moment,
+                most(&building_peaks.moment),
+            ),
         ] {
             for (floor, value) in values.iter().enumerate() {
                 list.push(Quantity {
@@ -107,11 +119,11 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
         list.push(Quantity {
             kind: "base shear",
             name: name.clone(),
-            value: own.shear,
-            scale: own.shear,
+            value: building_peaks.shear,
+            scale: building_peaks.shear,
         });
-        for more in &own.more {
-            let alike = own.more.iter();
+        for more in &building_peaks.more {
+            let alike = building_peaks.more.iter();
             let alike = alike.filter(|other| measured_by(other.kind) == measured_by(more.kind));
             list.push(Quantity {
                 kind: more.kind,
@@ -140,8 +152,8 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
                 // A difference of displacements, which vanishes where neighbours move together.
                 let neighbours = contact.ports.buildings().into_iter().flatten();
                 let sways = neighbours.map(|building| {
-                    let own = &peaks.buildings[building];
-                    most(&own.most).max(most(&own.least))
+                    let building = &peaks.buildings[building];
+                    most(&building.most).max(most(&building.least))
                 });
                 scale = sways.fold(scale, |m, sway| m.max(SWAY * sway));
             }
@@ -181,27 +193,28 @@ pub(super) fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
         for (_, of) in PLAN {
             list.extend(floors().filter_map(|f| f.in_plan.as_ref().map(of)));
         }
-        if let (Some(own), Some(mat)) = (&building.isolation, &building.floors.mat) {
+        if let (Some(isolation), Some(mat)) = (&building.isolation, &building.floors.mat) {
             list.extend([
-                own.displacement_max_m,
-                own.displacement_min_m,
+                isolation.displacement_max_m,
+                isolation.displacement_min_m,
                 mat.response.total_acceleration_peak_m_s2,
-                own.force_peak_n,
+                isolation.force_peak_n,
             ]);
         }
-        if let Some(own) = &building.foundation {
-            list.extend([own.sway_peak_m, own.rocking_peak_rad]);
+        if let Some(foundation) = &building.foundation {
+            list.extend([foundation.sway_peak_m, foundation.rocking_peak_rad]);
         }
     }
     // Contacts of a summary stand gap by gap, in the order of the system.
     let mut places = vec![0; summary.gaps.len()];
-    let mut own = Vec::new();
+    let mut positions = Vec::new();
     for contact in listed(system).into_iter().map(|c| &system.contacts[c]) {
-        own.push((contact.gap, places[contact.gap]));
+        positions.push((contact.gap, places[contact.gap]));
         places[contact.gap] += 1;
     }
     let contacts = || {
-        own.iter()
+        positions
+            .iter()
             .map(|(gap, place)| &summary.gaps[*gap].contacts[*place])
     };
     list.extend(contacts().map(|contact| contact.peak_force_n));

@@ -287,8 +287,8 @@ pub fn figure(records: &[Record]) -> String {
     let mut ways: BTreeMap<(String, i64), Vec<f64>> = BTreeMap::new();
     for run in records.iter().flat_map(|record| &record.runs) {
         let decade = -run.tolerance.log10().round() as i64;
-        let own = ways.entry((run.solver.clone(), decade)).or_default();
-        own.extend(run.numbers.iter().filter_map(|number| number.ratio));
+        let ways = ways.entry((run.solver.clone(), decade)).or_default();
+        ways.extend(run.numbers.iter().filter_map(|number| number.ratio));
     }
     let [left, top, width, height] = AREA;
     let across = |decades: f64| {

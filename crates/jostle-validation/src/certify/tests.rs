@@ -44,17 +44,17 @@ const CHAIN: &str = r#"{"motion": {"record": "nanjing-artificial", "pga": "0.553
 #[test]
 fn a_chain_of_floors_moves_as_the_matrix_exponential_says() {
     let peaks = peaks(&CHAIN.replace("PARTNER", "").replace("GAP", ""));
-    let own = &peaks.buildings[0];
-    near(own.shear, 3643.8e3, 3e-5, "base shear");
-    near(own.most[0], 12.649e-3, 4e-5, "floor 1 to the right");
-    near(own.least[0], -10.785e-3, 4e-5, "floor 1 to the left");
+    let building = &peaks.buildings[0];
+    near(building.shear, 3643.8e3, 3e-5, "base shear");
+    near(building.most[0], 12.649e-3, 4e-5, "floor 1 to the right");
+    near(building.least[0], -10.785e-3, 4e-5, "floor 1 to the left");
     // Given to three or four digits.
     for (floor, expected) in [6.14, 10.52, 10.25, 10.21, 10.12, 9.88]
         .into_iter()
         .enumerate()
     {
         near(
-            own.acceleration[floor],
+            building.acceleration[floor],
             expected,
             1.5e-3,
             &format!("acceleration of floor {}", floor + 1),
@@ -77,20 +77,23 @@ fn an_oscillator_under_a_sine_answers_as_the_closed_form_says() {
     // Undamped at rest: u = A/(ω² − Ω²) (Ω/ω sin ωt − sin Ωt), with ω = 3Ω.
     let (mass, period) = (1e4, 1.0);
     let big = 2.0 * std::f64::consts::PI / period;
-    let own = 3.0 * big;
+    let frequency = 3.0 * big;
     let peaks = peaks(&format!(
         r#"{{"motion": {{"kind": "sine", "amplitude": 1.0, "period": {period}, "duration": 3}},
         "building": [{{"name": "A", "kind": "shear", "mass": [{mass}], "stiffness": [{:e}], "damping": {{"alpha": 0, "beta": 0}}}}]}}"#,
-        mass * own * own
+        mass * frequency * frequency
     ));
-    let exact = |t: f64| -((big * t).sin() - big / own * (own * t).sin()) / (own * own - big * big);
+    let exact = |t: f64| {
+        -((big * t).sin() - big / frequency * (frequency * t).sin())
+            / (frequency * frequency - big * big)
+    };
     let greatest = (0..3_000_000)
         .map(|k| exact(k as f64 * 1e-6))
         .fold(0.0, f64::max);
     near(peaks.buildings[0].most[0], greatest, 1e-9, "displacement");
     near(
         peaks.buildings[0].shear,
-        mass * own * own * greatest,
+        mass * frequency * frequency * greatest,
         1e-9,
         "base shear",
     );
@@ -173,13 +176,23 @@ fn feet_on_springs_follow_blows_as_the_reference_says() {
 #[test]
 fn storeys_of_a_chain_bear_their_stiffness_times_their_drift() {
     let peaks = peaks(&CHAIN.replace("PARTNER", "").replace("GAP", ""));
-    let own = &peaks.buildings[0];
+    let building = &peaks.buildings[0];
     for (storey, stiffness) in [(0, 2.88065e8), (4, 2.19547e8), (10, 1.31342e8)] {
-        let expected = stiffness * 3.7 * own.drift[storey];
-        near(own.storey_shear[storey], expected, 1e-8, "storey shear");
+        let expected = stiffness * 3.7 * building.drift[storey];
+        near(
+            building.storey_shear[storey],
+            expected,
+            1e-8,
+            "storey shear",
+        );
     }
-    near(own.moment[10], 3.7 * own.storey_shear[10], 1e-8, "moment");
-    near(own.storey_shear[0], own.shear, 1e-8, "base shear");
+    near(
+        building.moment[10],
+        3.7 * building.storey_shear[10],
+        1e-8,
+        "moment",
+    );
+    near(building.storey_shear[0], building.shear, 1e-8, "base shear");
 }
 
 /// Rubber between floors and columns, under frames whose feet rise and turn.

@@ -74,7 +74,7 @@ impl Led {
     ) -> Vec<Borne> {
         let bends = self
             .rigidity
-            .map(|own| self.height * self.height / (3.0 * own));
+            .map(|rigidity| self.height * self.height / (3.0 * rigidity));
         let mut memories = vec![HysteresisMemory::default(); fibres.len()];
         let mut moved = [0.0; 3];
         let mut all = Vec::new();
@@ -89,16 +89,16 @@ impl Led {
                 let mut tangent = [[0.0; 3]; 3];
                 forces = [0.0; 3];
                 for (fibre, memory) in fibres.iter().zip(&memories) {
-                    let own = fibre.spring.respond(memory, stretch(fibre, &moved));
+                    let response = fibre.spring.respond(memory, stretch(fibre, &moved));
                     // Where it does not move, its slope is that of the crack that is still closed.
-                    let slope = if own.force == 0.0 && memory.deformation() == 0.0 {
+                    let slope = if response.force == 0.0 && memory.deformation() == 0.0 {
                         fibre.spring.initial_tangent()
                     } else {
-                        own.tangent
+                        response.tangent
                     };
                     let arms = arms(fibre);
                     for (row, arm) in arms.into_iter().enumerate() {
-                        forces[row] += own.force * arm;
+                        forces[row] += response.force * arm;
                         for (column, other) in arms.into_iter().enumerate() {
                             tangent[row][column] += slope * arm * other;
                         }
@@ -109,15 +109,15 @@ impl Led {
                 for axis in [0, 1] {
                     let turned = -moved[1 + axis] * self.height - forces[1 + axis] * bends[axis];
                     left[1 + axis] = turned - top[axis];
-                    tangent[1 + axis] = tangent[1 + axis].map(|own| -own * bends[axis]);
+                    tangent[1 + axis] = tangent[1 + axis].map(|tangent| -tangent * bends[axis]);
                     tangent[1 + axis][1 + axis] -= self.height;
                 }
                 let small = left[1].abs().max(left[2].abs()) < 1e-12;
                 if left[0].abs() < 1e-6 * self.axial.abs() && small {
                     break;
                 }
-                for (own, step) in moved.iter_mut().zip(solved(tangent, left)) {
-                    *own -= step;
+                for (unknown, step) in moved.iter_mut().zip(solved(tangent, left)) {
+                    *unknown -= step;
                 }
             }
             for (fibre, memory) in fibres.iter().zip(&mut memories) {
@@ -137,11 +137,11 @@ fn solved(matrix: [[f64; 3]; 3], right: [f64; 3]) -> [f64; 3] {
             + a[2] * (b[0] * c[1] - b[1] * c[0])
     };
     [0, 1, 2].map(|column| {
-        let mut own = matrix;
+        let mut replaced = matrix;
         for row in 0..3 {
-            own[row][column] = right[row];
+            replaced[row][column] = right[row];
         }
-        determinant(own) / determinant(matrix)
+        determinant(replaced) / determinant(matrix)
     })
 }
 
@@ -218,7 +218,7 @@ fn file(input: &Value, tolerance: f64) -> String {
         .collect();
     let columns = (spans.len() + 1) as f64;
     let beam = input.get("beam_EI").and_then(Value::as_f64);
-    let beam = beam.map_or_else(String::new, |own| format!("beam = {{ EI = {own:?} }}\n"));
+    let beam = beam.map_or_else(String::new, |beam| format!("beam = {{ EI = {beam:?} }}\n"));
     let mass = of("/mass_kg");
     let area = section("width_m") * section("depth_m");
     let modulus = of("/EA") / area;
@@ -274,10 +274,10 @@ fn shaken(name: &str, case: &Value, tolerance: f64) -> Vec<Row> {
     let (mut forces, mut moments, mut turns) = (Vec::new(), Vec::new(), Vec::new());
     let mut expected: [Vec<f64>; 3] = Default::default();
     let single = building.sections.len() == 1;
-    for (number_of, own) in building.sections.iter().enumerate() {
-        forces.extend([own.axial_max_n, own.axial_min_n]);
-        moments.extend([own.moment_max_n_m, own.moment_min_n_m]);
-        turns.extend([own.rotation_max_rad, own.rotation_min_rad]);
+    for (number_of, section) in building.sections.iter().enumerate() {
+        forces.extend([section.axial_max_n, section.axial_min_n]);
+        moments.extend([section.moment_max_n_m, section.moment_min_n_m]);
+        turns.extend([section.rotation_max_rad, section.rotation_min_rad]);
         let (hinge, node) = if single {
             ("hinge".to_owned(), "hinge".to_owned())
         } else {

@@ -24,8 +24,8 @@ const STEPS: f64 = 1e-3;
 /// All rows of this case.
 pub(super) fn rows() -> Vec<Row> {
     let case = document(CASE);
-    let own = input(&case["input"], 1e-3);
-    let mut rows = led_along_a_clover(&case, &fibres_of(&own));
+    let input = input(&case["input"], 1e-3);
+    let mut rows = led_along_a_clover(&case, &fibres_of(&input));
     rows.extend(shaken(&case, 1e-3));
     rows
 }
@@ -36,7 +36,7 @@ fn input(input: &Value, tolerance: f64) -> Input {
     let section = |key: &str| number(input, &format!("/section/{key}"));
     let (width, depth) = (section("width_m"), section("depth_m"));
     let mass = of("/mass_kg");
-    let mut own = model(&format!(
+    let mut model = model(&format!(
         r#"motion = {{ record = "el-centro-1940-ns", scale = {scale:?}, duration = {duration:?} }}
 analysis = {{ tolerance = {tolerance:?} }}
 [[building]]
@@ -74,7 +74,7 @@ hinges = {{ rule = "fibre", length = {length:?}, fibres = [{layers}, {across}], 
         ultimate = section("ecu"),
         hardening = section("b"),
     ));
-    let Structure::Tiers(tiers) = &mut own.model.buildings[0].structure else {
+    let Structure::Tiers(tiers) = &mut model.model.buildings[0].structure else {
         unreachable!("it has a plan");
     };
     let frame = tiers.space_frame.as_mut().expect("it is a space frame");
@@ -82,12 +82,12 @@ hinges = {{ rule = "fibre", length = {length:?}, fibres = [{layers}, {across}], 
         // Those of the reference are not those of one modulus.
         column.section.flexural_rigidity = [of("/EI_x"), of("/EI_y")];
     }
-    own
+    model
 }
 
 /// The fibres of a column.
-fn fibres_of(own: &Input) -> Vec<Fibre> {
-    let Structure::Tiers(tiers) = &own.model.buildings[0].structure else {
+fn fibres_of(input: &Input) -> Vec<Fibre> {
+    let Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
         unreachable!("it has a plan");
     };
     let frame = tiers.space_frame.as_ref().expect("it is a space frame");
@@ -108,7 +108,7 @@ fn led_along_a_clover(case: &Value, fibres: &[Fibre]) -> Vec<Row> {
     };
     let radius = of("clover_radius_m");
     let corners = [[1, 0], [1, 1], [-1, 1], [-1, -1], [1, -1], [1, 0], [0, 0]];
-    let corners = corners.map(|corner| corner.map(|own| f64::from(own) * radius));
+    let corners = corners.map(|corner| corner.map(|corner| f64::from(corner) * radius));
     let starts = std::iter::once([0.0; 2]).chain(corners);
     let path = starts.zip(corners).flat_map(|(from, to)| {
         let between = move |share: f64, axis: usize| from[axis] + share * (to[axis] - from[axis]);
@@ -146,9 +146,9 @@ fn led_along_a_clover(case: &Value, fibres: &[Fibre]) -> Vec<Row> {
         (vec![5, 6], vec![8, 9], "rotations of the section [rad]"),
     ]
     .into_iter()
-    .map(|(own, theirs, what)| {
+    .map(|(ours, theirs, what)| {
         let expected = theirs.iter().flat_map(|column| of_column(*column, points));
-        let got = own.iter().flat_map(|k| got.iter().map(|point| point[*k]));
+        let got = ours.iter().flat_map(|k| got.iter().map(|point| point[*k]));
         let (expected, got): (Vec<f64>, Vec<f64>) = (expected.collect(), got.collect());
         Row::worst_of(NAME, what, &expected, &got, POLYGON)
     })
@@ -156,8 +156,8 @@ fn led_along_a_clover(case: &Value, fibres: &[Fibre]) -> Vec<Row> {
 }
 
 /// The motion of the input, and the same later across.
-fn from_two_sides(own: &Input, input: &Value) -> GroundMotion {
-    let along = own.ground_motion().expect("the record is built in");
+fn from_two_sides(model_input: &Input, input: &Value) -> GroundMotion {
+    let along = model_input.ground_motion().expect("the record is built in");
     let Wave::Sampled { step, acceleration } = &along.wave else {
         unreachable!("a record");
     };
@@ -178,10 +178,10 @@ fn from_two_sides(own: &Input, input: &Value) -> GroundMotion {
 }
 
 fn shaken(case: &Value, tolerance: f64) -> Vec<Row> {
-    let own = input(&case["input"], tolerance);
-    let motion = from_two_sides(&own, &case["input"]);
-    let system = System::assemble(&own.model).expect("a sound model");
-    let plan = Plan::choose(&system, &motion, &own.model.analysis).expect("a sound plan");
+    let input = input(&case["input"], tolerance);
+    let motion = from_two_sides(&input, &case["input"]);
+    let system = System::assemble(&input.model).expect("a sound model");
+    let plan = Plan::choose(&system, &motion, &input.model.analysis).expect("a sound plan");
     let interval = 0.01;
     let settings = Settings {
         record_interval: Some(interval),
@@ -191,7 +191,7 @@ fn shaken(case: &Value, tolerance: f64) -> Vec<Row> {
         ControlFlow::Continue(())
     });
     let summary = Summary::new(&Run {
-        model: &own.model,
+        model: &input.model,
         system: &system,
         motion: &motion,
         plan: &plan,
@@ -201,12 +201,12 @@ fn shaken(case: &Value, tolerance: f64) -> Vec<Row> {
     });
     let history = outcome.history.as_ref().expect("it is recorded");
     let top = Column::displacement(0, 1);
-    let columns = [top, top.across()].map(|own| history.column(own).expect("it is recorded"));
+    let columns = [top, top.across()].map(|column| history.column(column).expect("it is recorded"));
     let times = history.column(Column::TIME).expect("it is recorded");
     let at = |time: f64| -> [f64; 2] {
         let index = times
             .iter()
-            .position(|own| (own - time).abs() < 0.5 * interval);
+            .position(|candidate| (candidate - time).abs() < 0.5 * interval);
         let index = index.expect("it is recorded");
         [columns[0][index], columns[1][index]]
     };

@@ -42,14 +42,14 @@ stiffness = {stiffness:?}
 
 /// The shear building beside it.
 fn neighbour(input: &Value) -> String {
-    let own = &input["neighbour"];
+    let building = &input["neighbour"];
     let heights = list(input, "/storey_heights_m");
-    let heights = &heights[..list(own, "/mass_kg").len()];
+    let heights = &heights[..list(building, "/mass_kg").len()];
     format!(
         "[[building]]\nname = \"N\"\nkind = \"shear\"\nstorey_height = {}\nstiffness = {}\nmass = {}\ndamping = {{ alpha = {:?}, beta = 0 }}\n",
         Value::from(heights.to_vec()),
-        own["stiffness"],
-        own["mass_kg"],
+        building["stiffness"],
+        building["mass_kg"],
         number(input, "/alpha")
     )
 }
@@ -175,7 +175,7 @@ fn at_two_levels(input: &Value, tolerance: f64) -> String {
     let mut text = beginning(input, tolerance, ["A", "B"]);
     text += "floors = \"all\"\n";
     for (name, elevation) in [("A", 0.0), ("B", -number(input, "/drop_m"))] {
-        let own = &input[name];
+        let building = &input[name];
         let _ = writeln!(
             text,
             r#"[[building]]
@@ -191,12 +191,12 @@ beam_segments = 1
 floor_mass = {masses}
 axial = "rigid"
 damping = {{ alpha = {alpha:?}, beta = 0 }}"#,
-            heights = own["storey_heights_m"],
-            span = own["span_m"],
-            column = own["column_EI"],
-            mass = own["column_mass_kg_per_m"],
-            beam = own["beam_EI"],
-            masses = own["floor_mass_kg"],
+            heights = building["storey_heights_m"],
+            span = building["span_m"],
+            column = building["column_EI"],
+            mass = building["column_mass_kg_per_m"],
+            beam = building["beam_EI"],
+            masses = building["floor_mass_kg"],
             alpha = number(input, "/alpha"),
         );
     }
@@ -206,14 +206,15 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}"#,
 /// A frame of one bay with braces or struts, one section per storey.
 fn braced(input: &Value, tolerance: f64) -> String {
     let list_of = |key: &str, table: &dyn Fn(usize, f64) -> String| {
-        let own = numbers(input, key).into_iter().enumerate();
-        own.map(|(index, value)| table(index, value))
+        let numbers = numbers(input, key).into_iter().enumerate();
+        numbers
+            .map(|(index, value)| table(index, value))
             .collect::<Vec<_>>()
             .join(", ")
     };
-    let rigidity = input["column_EA"].as_array().map(|own| own.to_vec());
+    let rigidity = input["column_EA"].as_array().map(|input| input.to_vec());
     let column = list_of("/column_EI", &|index, value| match &rigidity {
-        Some(own) => format!("{{ EI = {value:?}, EA = {} }}", own[index]),
+        Some(rigidity) => format!("{{ EI = {value:?}, EA = {} }}", rigidity[index]),
         None => format!("{{ EI = {value:?} }}"),
     });
     let beam = list_of("/beam_EI", &|_, value| format!("{{ EI = {value:?} }}"));
@@ -263,11 +264,11 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}
         }
     }
     let panels = input["panel"].as_array().into_iter().flatten();
-    for (storey, panel) in panels.enumerate().filter(|(_, own)| !own.is_null()) {
+    for (storey, panel) in panels.enumerate().filter(|(_, index)| !index.is_null()) {
         text += &one_strut(storey, panel);
     }
     let struts = input["strut_k"].as_array().into_iter().flatten();
-    for (storey, stiffness) in struts.enumerate().filter(|(_, own)| own.is_number()) {
+    for (storey, stiffness) in struts.enumerate().filter(|(_, index)| index.is_number()) {
         let _ = writeln!(
             text,
             "[[building.infill]]\nstoreys = {}\nstiffness = {stiffness}",

@@ -13,13 +13,13 @@ pub(super) fn check_weight(faults: &mut Faults, path: &str, building: &Building)
 }
 
 /// The fibres of one column.
-pub(super) fn check_fibres(faults: &mut Faults, path: &str, own: &ColumnFibres, in_space: bool) {
-    faults.positive(own.length, format!("{path}.length"), "m");
-    for (limit, strain) in &own.limits {
+pub(super) fn check_fibres(faults: &mut Faults, path: &str, fibres: &ColumnFibres, in_space: bool) {
+    faults.positive(fibres.length, format!("{path}.length"), "m");
+    for (limit, strain) in &fibres.limits {
         let limit_path = format!("{path}.limits.{}", limit.name());
         faults.positive(*strain, &limit_path, "");
         let judged = limit.material();
-        let stands = own.fibres.iter().any(|fibre| fibre.material == judged);
+        let stands = fibres.fibres.iter().any(|fibre| fibre.material == judged);
         faults.require(stands, &limit_path, || match judged {
             FibreMaterial::Core => {
                 "needs a core within ties: add ties = \"d8 @ 100 mm\" to column, or leave it out"
@@ -29,22 +29,22 @@ pub(super) fn check_fibres(faults: &mut Faults, path: &str, own: &ColumnFibres, 
             FibreMaterial::Bar => "needs bars".into(),
         });
     }
-    let finite = own.fibres.iter().flat_map(|fibre| fibre.at);
+    let finite = fibres.fibres.iter().flat_map(|fibre| fibre.at);
     let finite = finite.into_iter().all(f64::is_finite);
     faults.require(finite, path, || "must stand at finite distances".into());
-    faults.require(own.fibres.len() >= 2, path, || {
+    faults.require(fibres.fibres.len() >= 2, path, || {
         "need at least two: one cannot bend".into()
     });
     faults.require(
-        !in_space || !finite || !stand_on_a_line(own),
+        !in_space || !finite || !stand_on_a_line(fibres),
         path,
         || "stand on one line, about which they cannot bend: a column in space needs three at least".into(),
     );
 }
 
 /// Whether all fibres stand on one line.
-fn stand_on_a_line(own: &ColumnFibres) -> bool {
-    let points = own.fibres.iter().map(|fibre| fibre.at);
+fn stand_on_a_line(fibres: &ColumnFibres) -> bool {
+    let points = fibres.fibres.iter().map(|fibre| fibre.at);
     let Some(first) = points.clone().next() else {
         return true;
     };

@@ -7,15 +7,15 @@ use crate::model::{Diagonal, DiagonalPlace, Frame};
 pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
     let (storeys, lines) = (frame.storey_heights.len(), frame.lines());
     let (column, beam) = (format!("{path}.column"), format!("{path}.beam"));
-    let outside = |own: &[usize; 2], across: usize| own[0] >= storeys || own[1] >= across;
-    for [storey, line] in frame.own_columns.keys().filter(|own| outside(own, lines)) {
+    let outside = |place: &[usize; 2], across: usize| place[0] >= storeys || place[1] >= across;
+    for [storey, line] in frame.own_columns.keys().filter(|key| outside(key, lines)) {
         faults.add(column.as_str(), format!(
             "names line {} of storey {}, but there are {lines} column lines and {storeys} storeys, counted from 1",
             line + 1,
             storey + 1
         ));
     }
-    for [floor, bay] in frame.own_beams.keys().filter(|own| outside(own, lines - 1)) {
+    for [floor, bay] in frame.own_beams.keys().filter(|key| outside(key, lines - 1)) {
         faults.add(beam.as_str(), format!(
             "names bay {} of floor {}, but there are {} bays and {storeys} floors, counted from 1",
             bay + 1,
@@ -81,26 +81,26 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
 }
 
 /// What is wrong with where the ends of a diagonal, whose place is sound, meet the columns.
-pub(super) fn fault_of_offsets(frame: &Frame, own: &Diagonal) -> Option<String> {
-    let storey = own.place.storey - 1;
+pub(super) fn fault_of_offsets(frame: &Frame, diagonal: &Diagonal) -> Option<String> {
+    let storey = diagonal.place.storey - 1;
     let height = frame.storey_heights[storey];
-    let [lower, upper] = own.place.lines();
+    let [lower, upper] = diagonal.place.lines();
     let ends = [(lower, 0), (upper, 1)].map(|(line, end)| {
         let rigid = frame.rigid_ends_of_column([storey, line])[end];
-        (own.offsets[end], rigid, line + 1)
+        (diagonal.offsets[end], rigid, line + 1)
     });
     ends.into_iter().find_map(|(offset, rigid, line)| {
         if !(0.0..=0.25 * height).contains(&offset) {
             return Some(format!(
                 "{} meets column {line} {offset} m from the joint; give 0 to a quarter of the storey, {} m",
-                own.place,
+                diagonal.place,
                 0.25 * height
             ));
         }
         (offset > 0.0 && offset <= rigid).then(|| {
             format!(
                 "{} meets column {line} {offset} m from the joint, where it is rigid over {rigid} m; give a greater offset, or shorter rigid_ends",
-                own.place
+                diagonal.place
             )
         })
     })

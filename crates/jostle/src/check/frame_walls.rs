@@ -20,16 +20,16 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
         faults.require((first - 1..last).all(has_section), field.as_str(), || {
             format!("has no section at line {line} in every storey from {first} to {last}; a wall is a column of the frame as well")
         });
-        let astray = wall.hinges.iter().enumerate().find(|(index, own)| {
+        let astray = wall.hinges.iter().enumerate().find(|(index, hinge)| {
             let before = wall.hinges[..*index].iter();
-            let mut same =
-                before.filter(|other| (other.storey, other.at_head) == (own.storey, own.at_head));
-            !(first..=last).contains(&own.storey) || same.next().is_some()
+            let mut same = before
+                .filter(|other| (other.storey, other.at_head) == (hinge.storey, hinge.at_head));
+            !(first..=last).contains(&hinge.storey) || same.next().is_some()
         });
-        if let Some((_, own)) = astray {
+        if let Some((_, hinge)) = astray {
             faults.add(format!("{field}.hinge"), format!(
                 "stands in storey {}, where the wall has none or another one already; it has storeys {first} to {last}",
-                own.storey
+                hinge.storey
             ));
         }
         let shared = frame.walls[..index].iter().position(|other| {
@@ -84,16 +84,16 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
             ));
         }
     }
-    for own in &frame.diagonals {
-        let walls = own.place.lines().map(|line| {
-            let storey = own.place.storey.checked_sub(1)?;
+    for diagonal in &frame.diagonals {
+        let walls = diagonal.place.lines().map(|line| {
+            let storey = diagonal.place.storey.checked_sub(1)?;
             frame.wall([storey, line])
         });
         if let Some(wall) = walls.into_iter().flatten().next() {
-            let kind = own.place.kind.name();
+            let kind = diagonal.place.kind.name();
             faults.add(format!("{path}.{kind}"), format!(
                 "{} meets the wall at line {}, beside which braces and panels are not modelled; leave it out there",
-                own.place, wall.line
+                diagonal.place, wall.line
             ));
         }
     }
@@ -109,7 +109,7 @@ fn stands_at(frame: &Frame, [floor, line]: [usize; 2]) -> bool {
 fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &Frame) {
     let field = format!("{path}.rigid_ends");
     for (&[floor, line], zone) in &frame.rigid_zones {
-        let sound = zone.iter().all(|own| *own >= 0.0 && own.is_finite());
+        let sound = zone.iter().all(|zone| *zone >= 0.0 && zone.is_finite());
         faults.require(sound && frame.has_joint(floor + 1, line), field.as_str(), || {
             format!(
                 "gives line {} at floor {} rigid ends of {} and {} m; they must not be negative, and a joint must be there",
@@ -126,7 +126,7 @@ fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &Frame) {
     let columns = frame.all_columns();
     let column = columns
         .map(|(place, _)| place)
-        .find(|own| frame.clear_height(*own) <= 0.0);
+        .find(|place| frame.clear_height(*place) <= 0.0);
     if let Some([storey, line]) = column {
         let [foot, head] = frame.rigid_ends_of_column([storey, line]);
         faults.add(field.as_str(), format!(
@@ -139,7 +139,7 @@ fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &Frame) {
     let beams = frame.all_beams();
     let beam = beams
         .map(|(place, _)| place)
-        .find(|own| frame.clear_span(*own) <= 0.0);
+        .find(|place| frame.clear_span(*place) <= 0.0);
     let beam = beam.filter(|[floor, bay]| {
         let mut ends = [*bay, bay + 1].into_iter();
         !ends.any(|line| stands_at(frame, [*floor, line]))

@@ -100,7 +100,7 @@ pub(super) fn check_floor_matrices(
             && rows
                 .iter()
                 .enumerate()
-                .all(|(row, own)| own.len() == row + 1);
+                .all(|(row, candidate)| candidate.len() == row + 1);
         faults.require(fits || none, at(field), || {
             format!("needs the lower triangle of a matrix of {n} rows, three for each floor")
         });
@@ -111,9 +111,9 @@ pub(super) fn check_floor_matrices(
     }
     if faults.0.len() == before {
         let rows = matrices.damping.iter().enumerate();
-        let entries = rows.flat_map(|(row, own)| {
-            let own = own.iter().enumerate();
-            own.map(move |(column, &value)| (row, column, value))
+        let entries = rows.flat_map(|(row, values)| {
+            let columns = values.iter().enumerate();
+            columns.map(move |(column, &value)| (row, column, value))
         });
         let entries: Vec<MatrixEntry> = entries.collect();
         check_dissipates(faults, at("damping"), &entries, n);
@@ -198,7 +198,7 @@ const ROUNDING: f64 = 1e-9;
 fn check_dissipates(faults: &mut Faults, path: String, damping: &[MatrixEntry], n: usize) {
     let greatest = damping
         .iter()
-        .fold(0.0_f64, |most, own| most.max(own.2.abs()));
+        .fold(0.0_f64, |most, damping| most.max(damping.2.abs()));
     if greatest == 0.0 || !(1..=MOST).contains(&n) {
         return;
     }

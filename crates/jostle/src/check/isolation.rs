@@ -15,19 +15,19 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
     let Some(isolation) = &building.base.isolation else {
         return;
     };
-    let own = format!("{path}.isolation");
+    let text = format!("{path}.isolation");
     let plain = Base {
         isolation: Some(*isolation),
         elevation: building.base.elevation,
         ..Base::default()
     };
-    faults.require(building.base == plain, own.as_str(), || {
+    faults.require(building.base == plain, text.as_str(), || {
         "cannot stand beside base: the bearings are the base; leave out base".into()
     });
     match &building.structure {
         Structure::Frame(_) | Structure::Shear(_) => {}
         Structure::Given(_) => faults.add(
-            own.as_str(),
+            text.as_str(),
             "is for frames, shear buildings and buildings with a plan; leave it out",
         ),
         Structure::Tiers(tiers) => check_isolation_in_plan(faults, path, isolation, tiers),
@@ -37,25 +37,25 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
         format!("{path}.damping.modes"),
         || "\"all\" is not possible for an isolated building; name one or two modes of the building fixed on its mat".into(),
     );
-    faults.positive(isolation.mat_mass, format!("{own}.mat_mass"), "kg");
+    faults.positive(isolation.mat_mass, format!("{text}.mat_mass"), "kg");
     if let Some(weight) = isolation.weight {
-        faults.positive(weight, format!("{own}.weight"), "N");
+        faults.positive(weight, format!("{text}.weight"), "N");
     }
-    check_isolator(faults, &own, isolation);
-    check_bounds(faults, &own, isolation);
+    check_isolator(faults, &text, isolation);
+    check_bounds(faults, &text, isolation);
     if let Some(limit) = isolation.limit {
-        faults.positive(limit, format!("{own}.limit"), "m");
+        faults.positive(limit, format!("{text}.limit"), "m");
     }
     for (side, stop) in ["left", "right"].into_iter().zip(isolation.stops) {
         let Some(stop) = stop else { continue };
-        faults.positive(stop.at, format!("{own}.stop.{side}.at"), "m");
+        faults.positive(stop.at, format!("{text}.stop.{side}.at"), "m");
         faults.positive(
             stop.stiffness,
-            format!("{own}.stop.{side}.stiffness"),
+            format!("{text}.stop.{side}.stiffness"),
             "N/m",
         );
         if let Some(limit) = isolation.limit {
-            faults.require(stop.at < limit, format!("{own}.stop.{side}.at"), || {
+            faults.require(stop.at < limit, format!("{text}.stop.{side}.at"), || {
                 format!(
                     "must be less than limit ({limit} m), found {} m: the stop would never be reached within the limit",
                     stop.at
@@ -67,7 +67,7 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
 
 /// What bearings of a building with a plan cannot do.
 fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolation, tiers: &Tiers) {
-    let own = format!("{path}.isolation");
+    let text = format!("{path}.isolation");
     for (frame_path, frame) in each(&tiers.frames, "frame") {
         faults.require(
             frame.base.is_fixed(),
@@ -76,11 +76,11 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
         );
     }
     let [left, right] = isolation.stops;
-    faults.require(left == right, format!("{own}.stop"), || {
+    faults.require(left == right, format!("{text}.stop"), || {
         "is a ring under a building with a plan, the same all round: give at and stiffness instead of left and right, or moat walls ([[wall]] with from and to)".into()
     });
     let places = &tiers.bearings;
-    let at = format!("{own}.bearings");
+    let at = format!("{text}.bearings");
     faults.require(
         places.iter().flatten().all(|value| value.is_finite()),
         at.as_str(),
@@ -111,7 +111,7 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
 }
 
 /// Faults of the range of the properties of bearings.
-fn check_bounds(faults: &mut Faults, own: &str, isolation: &Isolation) {
+fn check_bounds(faults: &mut Faults, path: &str, isolation: &Isolation) {
     let Some(bounds) = isolation.bounds else {
         return;
     };
@@ -121,44 +121,44 @@ fn check_bounds(faults: &mut Faults, own: &str, isolation: &Isolation) {
     ] {
         let is_sound = |factor: f64| factor > 0.0 && within.contains(&factor);
         let sound = is_sound(factors.stiffness) && is_sound(factors.strength);
-        faults.require(sound, format!("{own}.bounds.{key}"), || match key {
+        faults.require(sound, format!("{path}.bounds.{key}"), || match key {
             "lower" => "must be above 0 and at most 1: it multiplies the properties of the bearings, as in bounds = { lower = 0.85, upper = 1.3 }".into(),
             _ => "must be at least 1: it multiplies the properties of the bearings, as in bounds = { lower = 0.85, upper = 1.3 }".into(),
         });
     }
 }
 
-fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
+fn check_isolator(faults: &mut Faults, path: &str, isolation: &Isolation) {
     match isolation.damping {
         IsolatorDamping::Coefficient(damping) => {
-            faults.not_negative(damping, format!("{own}.damping"), "N.s/m");
+            faults.not_negative(damping, format!("{path}.damping"), "N.s/m");
         }
         IsolatorDamping::Ratio(ratio) => {
             faults.require(
                 (0.0..1.0).contains(&ratio),
-                format!("{own}.damping_ratio"),
+                format!("{path}.damping_ratio"),
                 || format!("must lie between 0 and 1 (0.15 is 15 % of critical), found {ratio}"),
             );
             let linear = matches!(isolation.isolator, Isolator::Linear { .. });
-            faults.require(linear, format!("{own}.damping_ratio"), || {
+            faults.require(linear, format!("{path}.damping_ratio"), || {
                 "is for kind = \"linear\": other bearings have no single stiffness; give damping in N.s/m".into()
             });
         }
     }
     match isolation.isolator {
         Isolator::Linear { stiffness } => {
-            faults.positive(stiffness, format!("{own}.stiffness"), "N/m");
+            faults.positive(stiffness, format!("{path}.stiffness"), "N/m");
         }
         Isolator::LeadRubber {
             stiffness,
             yield_force,
             post_yield,
         } => {
-            faults.positive(stiffness, format!("{own}.stiffness"), "N/m");
-            faults.positive(yield_force, format!("{own}.yield"), "N");
+            faults.positive(stiffness, format!("{path}.stiffness"), "N/m");
+            faults.positive(yield_force, format!("{path}.yield"), "N");
             faults.require(
                 (0.0..1.0).contains(&post_yield),
-                format!("{own}.post_yield"),
+                format!("{path}.post_yield"),
                 || format!("must be at least 0 and less than 1, found {post_yield}"),
             );
         }
@@ -168,12 +168,16 @@ fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
             displacement,
             yield_displacement,
         } => {
-            faults.positive(stiffness, format!("{own}.stiffness"), "N/m");
-            faults.positive(displacement, format!("{own}.displacement"), "m");
-            faults.positive(yield_displacement, format!("{own}.yield_displacement"), "m");
+            faults.positive(stiffness, format!("{path}.stiffness"), "N/m");
+            faults.positive(displacement, format!("{path}.displacement"), "m");
+            faults.positive(
+                yield_displacement,
+                format!("{path}.yield_displacement"),
+                "m",
+            );
             faults.require(
                 yield_displacement < displacement,
-                format!("{own}.yield_displacement"),
+                format!("{path}.yield_displacement"),
                 || {
                     format!(
                         "must be less than displacement ({displacement} m), found {yield_displacement} m; it is about 0.05 to 0.1 of the height of the rubber"
@@ -184,7 +188,7 @@ fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
             let most = 2.0 / std::f64::consts::PI * (1.0 - yield_displacement / displacement);
             faults.require(
                 damping_ratio > 0.0 && damping_ratio < most,
-                format!("{own}.damping_ratio"),
+                format!("{path}.damping_ratio"),
                 || {
                     format!(
                         "must be greater than 0 and less than {most:.3}, that of a loop without hardening; found {damping_ratio}"
@@ -197,9 +201,9 @@ fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
             friction,
             slip_displacement,
         } => {
-            faults.positive(radius, format!("{own}.radius"), "m");
-            faults.positive(slip_displacement, format!("{own}.slip_displacement"), "m");
-            let field = format!("{own}.friction");
+            faults.positive(radius, format!("{path}.radius"), "m");
+            faults.positive(slip_displacement, format!("{path}.slip_displacement"), "m");
+            let field = format!("{path}.friction");
             faults.require(
                 friction.slow > 0.0 && friction.slow.is_finite(),
                 field.as_str(),
@@ -220,22 +224,22 @@ fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
         Isolator::DoublePendulum {
             surfaces,
             slip_displacement,
-        } => check_surfaces(faults, own, &surfaces, slip_displacement),
+        } => check_surfaces(faults, path, &surfaces, slip_displacement),
         Isolator::TriplePendulum {
             surfaces,
             slip_displacement,
         } => {
-            check_surfaces(faults, own, &surfaces, slip_displacement);
-            check_order_of_surfaces(faults, own, &surfaces);
+            check_surfaces(faults, path, &surfaces, slip_displacement);
+            check_order_of_surfaces(faults, path, &surfaces);
         }
     }
 }
 
 /// Faults of the surfaces of a pendulum of several, one by one.
-fn check_surfaces(faults: &mut Faults, own: &str, surfaces: &[SlidingSurface], slip: f64) {
-    faults.positive(slip, format!("{own}.slip_displacement"), "m");
+fn check_surfaces(faults: &mut Faults, path: &str, surfaces: &[SlidingSurface], slip: f64) {
+    faults.positive(slip, format!("{path}.slip_displacement"), "m");
     for (index, surface) in surfaces.iter().enumerate() {
-        let at = |key: &str| format!("{own}.{key}[{index}]");
+        let at = |key: &str| format!("{path}.{key}[{index}]");
         faults.positive(surface.radius, at("radius"), "m");
         faults.positive(surface.capacity, at("capacity"), "m");
         faults.require(
@@ -252,12 +256,12 @@ fn check_surfaces(faults: &mut Faults, own: &str, surfaces: &[SlidingSurface], s
 }
 
 /// The stages of a triple pendulum are in series only in this order of friction and radii (Fenz and Constantinou, 2008).
-fn check_order_of_surfaces(faults: &mut Faults, own: &str, surfaces: &[SlidingSurface; 4]) {
+fn check_order_of_surfaces(faults: &mut Faults, path: &str, surfaces: &[SlidingSurface; 4]) {
     let [lower, below, above, upper] = surfaces;
     let [first, last] = [below, above].map(|inner| inner.friction);
     faults.require(
         first == last && first < lower.friction && lower.friction <= upper.friction,
-        format!("{own}.friction"),
+        format!("{path}.friction"),
         || {
             format!(
                 "must be equal on both inner surfaces, greater on the lower bowl and not less on the upper one, as in friction = [0.04, 0.015, 0.015, 0.08]; found [{}, {first}, {last}, {}]",
@@ -267,7 +271,7 @@ fn check_order_of_surfaces(faults: &mut Faults, own: &str, surfaces: &[SlidingSu
     );
     faults.require(
         lower.radius > below.radius && upper.radius > above.radius,
-        format!("{own}.radius"),
+        format!("{path}.radius"),
         || {
             format!(
                 "must be greater on each bowl than on the inner surface beside it, as in radius = [\"2.1 m\", \"0.3 m\", \"0.3 m\", \"2.1 m\"]; found [{}, {}, {}, {}] m",

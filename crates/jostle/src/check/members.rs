@@ -69,8 +69,8 @@ fn fault_in_plan(name: &str, place: &str, building: &Building, tiers: &Tiers) ->
             own = building.name
         ));
     };
-    let own = format!("{}.{}", building.name, frame.name);
-    fault_in_frame(name, &place, &own, &frame.frame)
+    let text = format!("{}.{}", building.name, frame.name);
+    fault_in_frame(name, &place, &text, &frame.frame)
 }
 
 /// The same for a space frame.
@@ -81,7 +81,7 @@ fn fault_in_space(
     frame: &SpaceFrame,
 ) -> Option<String> {
     let mut members = frame.members.iter();
-    let known = members.any(|own| MemberPlace::InSpace(own.place).to_string() == place);
+    let known = members.any(|member| MemberPlace::InSpace(member.place).to_string() == place);
     (!known).then(|| {
         format!(
             "\"{name}\" is no member of \"{own}\"; it has {own}.column.X.Y.STOREY, {own}.beam_x.FLOOR.X.Y and {own}.beam_y.FLOOR.X.Y with lines x 1…{} and y 1…{}, storeys 1…{}, as far as they are not omitted; X and Y are the lines at which a beam begins",
@@ -94,7 +94,7 @@ fn fault_in_space(
 }
 
 /// What is wrong with the place of a member in a frame of this name.
-fn fault_in_frame(name: &str, place: &str, own: &str, frame: &Frame) -> Option<String> {
+fn fault_in_frame(name: &str, place: &str, owner: &str, frame: &Frame) -> Option<String> {
     let storeys = frame.storey_heights.len();
     let lines = frame.spans.len() + 1;
     let within = |text: &str, most: usize| {
@@ -119,7 +119,7 @@ fn fault_in_frame(name: &str, place: &str, own: &str, frame: &Frame) -> Option<S
     (!known).then(|| {
         let to = |most: usize| if most == 1 { "1".to_owned() } else { format!("1…{most}") };
         format!(
-            "\"{name}\" is no member of \"{own}\"; it has {own}.column.LINE.STOREY with line {} and storey {}, and {own}.beam.FLOOR.SPAN with floor {} and span {}{}",
+            "\"{name}\" is no member of \"{owner}\"; it has {owner}.column.LINE.STOREY with line {} and storey {}, and {owner}.beam.FLOOR.SPAN with floor {} and span {}{}",
             to(lines),
             to(storeys),
             to(storeys),

@@ -310,7 +310,7 @@ fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, fra
         format!("{path}.shear"),
         || "takes springs that lose their strength, from Hysteresis::failing".into(),
     );
-    for ([storey, line], own) in &hinges.fibres {
+    for ([storey, line], column_fibres) in &hinges.fibres {
         let path = format!("{path}.fibres");
         faults.require(frame.column(*storey, *line).is_some(), &path, || {
             format!(
@@ -319,7 +319,7 @@ fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, fra
                 line + 1
             )
         });
-        fibres::check_fibres(faults, &path, own, false);
+        fibres::check_fibres(faults, &path, column_fibres, false);
     }
     faults.require(
         hinges.fibres.is_empty() || frame.axial.columns_flexible,
@@ -351,7 +351,7 @@ fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
         let places = (0..frame.lines()).flat_map(|line| [[floor, line], [floor + 1, line]]);
         let columns = places.filter_map(|[storey, line]| frame.column(storey, line));
         let mut masses = [on_beams, here[1]].into_iter().flatten().copied();
-        masses.any(|mass| mass > 0.0) || columns.into_iter().any(|own| own.line_mass > 0.0)
+        masses.any(|mass| mass > 0.0) || columns.into_iter().any(|column| column.line_mass > 0.0)
     });
     faults.require(floors_have_mass, format!("{path}.floor_mass"), || {
         "every floor needs some mass: set beam_mass, floor_mass or a column density".into()
@@ -383,7 +383,7 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("has {count} entries for {storeys} storeys; give one value, or one per storey from the ground up")
         });
     }
-    for (name, sections, own, flexible) in [
+    for (name, sections, overrides, flexible) in [
         (
             "column",
             &frame.columns,
@@ -397,11 +397,11 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             frame.axial.beams_flexible,
         ),
     ] {
-        let own = own.iter().filter_map(|([storey, place], section)| {
+        let single_sections = overrides.iter().filter_map(|([storey, place], section)| {
             let field = format!("{path}.{name}[{storey}][{place}]");
             Some((field, section.as_ref()?))
         });
-        for (field, section) in each(sections, &format!("{path}.{name}")).chain(own) {
+        for (field, section) in each(sections, &format!("{path}.{name}")).chain(single_sections) {
             faults.positive(section.flexural_rigidity, format!("{field}.EI"), "N.m2");
             faults.not_negative(section.line_mass, format!("{field}.mass"), "kg/m");
             match section.axial_rigidity {
@@ -450,9 +450,9 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("must lie between 1 and 64, found {segments}")
         });
     }
-    check_diagonals(faults, path, &frame.diagonals, |own| {
-        frame_places::fault_of_diagonal(frame, own.place)
-            .or_else(|| frame_places::fault_of_offsets(frame, own))
+    check_diagonals(faults, path, &frame.diagonals, |diagonal| {
+        frame_places::fault_of_diagonal(frame, diagonal.place)
+            .or_else(|| frame_places::fault_of_offsets(frame, diagonal))
     });
     for (name, stiffness, unit) in [
         ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
@@ -472,10 +472,13 @@ fn check_diagonals(
     diagonals: &[Diagonal],
     fault_of: impl Fn(&Diagonal) -> Option<String>,
 ) {
-    for (index, own) in diagonals.iter().enumerate() {
-        let (place, field) = (own.place, format!("{path}.{}", own.place.kind.name()));
-        if let Some(fault) = fault_of(own) {
-            let field = match own.offsets == [0.0; 2] {
+    for (index, diagonal) in diagonals.iter().enumerate() {
+        let (place, field) = (
+            diagonal.place,
+            format!("{path}.{}", diagonal.place.kind.name()),
+        );
+        if let Some(fault) = fault_of(diagonal) {
+            let field = match diagonal.offsets == [0.0; 2] {
                 true => field.clone(),
                 false => format!("{field}.offset"),
             };
@@ -486,7 +489,7 @@ fn check_diagonals(
         faults.require(is_first, field.as_str(), || {
             format!("there are two of {place}; give one with the stiffness of both")
         });
-        if let Some(damage) = own.damage {
+        if let Some(damage) = diagonal.damage {
             let rises = damage.drifts.windows(2).all(|pair| pair[0] < pair[1]);
             let sound = rises && damage.drifts[0] > 0.0 && damage.drifts[3].is_finite();
             let drifts = format!("{field}.damage_drifts");
@@ -495,7 +498,7 @@ fn check_diagonals(
             });
             faults.positive(damage.drift_per_shortening, drifts, "1/m");
         }
-        if let Some(across) = own.across {
+        if let Some(across) = diagonal.across {
             faults.positive(
                 across.strength,
                 format!("{field}.out_of_plane.strength"),
@@ -507,7 +510,7 @@ fn check_diagonals(
                 "kg/m2",
             );
         }
-        faults.positive(own.stiffness, field, "N/m");
+        faults.positive(diagonal.stiffness, field, "N/m");
     }
 }
 

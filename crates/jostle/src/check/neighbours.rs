@@ -88,8 +88,8 @@ fn two_in_space(
     model: &Model,
 ) -> bool {
     let count = model.buildings.len();
-    let known = |side: Option<usize>| side.is_some_and(|own| own < count + model.walls.len());
-    let is_building = |side: Option<usize>| side.is_some_and(|own| own < count);
+    let known = |side: Option<usize>| side.is_some_and(|side| side < count + model.walls.len());
+    let is_building = |side: Option<usize>| side.is_some_and(|side| side < count);
     let sound = between.into_iter().all(known) && between.into_iter().any(is_building);
     faults.require(sound, format!("{path}.between"), || {
         "names no two buildings of the model, nor a building and a wall of it".into()

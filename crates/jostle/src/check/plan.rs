@@ -38,7 +38,10 @@ fn check_place(faults: &mut Faults, path: &str, link: &Link) {
         );
         return;
     };
-    let finite = [from, to].iter().flatten().all(|own| own.is_finite());
+    let finite = [from, to]
+        .iter()
+        .flatten()
+        .all(|coordinate| coordinate.is_finite());
     faults.require(finite, field.as_str(), || "must be finite".into());
     faults.require(!finite || from != to, field, || {
         "names one point twice: the force of a link acts along the line between its ends".into()
@@ -355,16 +358,16 @@ fn contains(plan: &[PlanPoint], point: &PlanPoint) -> bool {
 fn check_overlaps(faults: &mut Faults, model: &Model) {
     for (index, building) in model.buildings.iter().enumerate() {
         for other in &model.buildings[..index] {
-            let (Structure::Tiers(own), Structure::Tiers(others)) =
+            let (Structure::Tiers(tiers), Structure::Tiers(others)) =
                 (&building.structure, &other.structure)
             else {
                 continue;
             };
-            let common = own.floors.iter().zip(&others.floors);
+            let common = tiers.floors.iter().zip(&others.floors);
             let sound = |plan: &[PlanPoint]| polygon_fault(plan).is_none();
             for (floor, (a, b)) in common.enumerate() {
                 if floor == 0 {
-                    let pair = [(own, building), (others, other)];
+                    let pair = [(tiers, building), (others, other)];
                     check_foundations_apart(faults, index, pair);
                 }
                 if sound(&a.plan) && sound(&b.plan) && overlap(&a.plan, &b.plan) {
@@ -389,14 +392,14 @@ fn check_foundations_apart(faults: &mut Faults, index: usize, pair: [(&Tiers, &B
         building.base.foundation?;
         Some(tiers.carrier(&building.base)?.tier.plan)
     });
-    let [Some(own), Some(other)] = plans else {
+    let [Some(one), Some(other)] = plans else {
         return;
     };
-    let sound = [&own, &other]
+    let sound = [&one, &other]
         .iter()
         .all(|plan| polygon_fault(plan).is_none());
     faults.require(
-        !(sound && overlap(&own, &other)),
+        !(sound && overlap(&one, &other)),
         format!("building[{index}].foundation"),
         || {
             format!(

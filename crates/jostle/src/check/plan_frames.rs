@@ -23,7 +23,9 @@ pub(super) fn check_plan_frames(
     }
     let before = faults.0.len();
     let reached = tiers.frames.iter();
-    let reached = reached.map(|own| own.frame.storey_heights.len()).max();
+    let reached = reached
+        .map(|plan_frame| plan_frame.frame.storey_heights.len())
+        .max();
     let reached = reached.unwrap_or(0);
     faults.require(
         !building.gravity.preload || reached >= tiers.floors.len(),
@@ -40,7 +42,7 @@ pub(super) fn check_plan_frames(
         check_one(faults, &at, frame, tiers);
         let namesake = tiers.frames[..index]
             .iter()
-            .any(|own| own.name == frame.name);
+            .any(|candidate| candidate.name == frame.name);
         faults.require(!namesake, format!("{at}.name"), || {
             format!(
                 "another frame is called \"{}\" too; give every frame its own name",
@@ -55,32 +57,38 @@ pub(super) fn check_plan_frames(
     check_held(faults, path, tiers);
 }
 
-fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
-    let name = own.name.trim();
+fn check_one(faults: &mut Faults, at: &str, plan_frame: &PlanFrame, tiers: &Tiers) {
+    let name = plan_frame.name.trim();
     faults.require(
-        !name.is_empty() && name == own.name,
+        !name.is_empty() && name == plan_frame.name,
         format!("{at}.name"),
         || "must not be empty, nor begin or end with a blank".into(),
     );
-    let frame = &own.frame;
+    let frame = &plan_frame.frame;
     check_members_of(faults, at, frame);
-    check_base(faults, &format!("{at}.base"), &own.base, [true, false]);
-    check_frame_hinges(faults, &format!("{at}.hinges"), &own.hinges, frame);
-    let yields = own.base.rotational_hinge.is_some() || own.base.horizontal_hinge.is_some();
+    check_base(
+        faults,
+        &format!("{at}.base"),
+        &plan_frame.base,
+        [true, false],
+    );
+    check_frame_hinges(faults, &format!("{at}.hinges"), &plan_frame.hinges, frame);
+    let yields =
+        plan_frame.base.rotational_hinge.is_some() || plan_frame.base.horizontal_hinge.is_some();
     faults.require(!yields, format!("{at}.base"), || {
         "cannot yield under a frame in a plan yet; leave its hinges out".into()
     });
-    faults.require(!own.base.uplift, format!("{at}.base.uplift"), || {
+    faults.require(!plan_frame.base.uplift, format!("{at}.base.uplift"), || {
         "is not possible under a frame in a plan yet; leave it out".into()
     });
-    let rests = own.base.isolation.is_some() || own.base.foundation.is_some();
+    let rests = plan_frame.base.isolation.is_some() || plan_frame.base.foundation.is_some();
     faults.require(!rests, format!("{at}.base"), || {
         "takes springs and dashpots only under a frame in a plan".into()
     });
     let heights = frame.storey_heights.iter().zip(&tiers.storey_heights);
     let same = heights
         .clone()
-        .all(|(own, other)| (own - other).abs() <= SAME_HEIGHT);
+        .all(|(candidate, other)| (candidate - other).abs() <= SAME_HEIGHT);
     let storeys = frame.storey_heights.len();
     let most = tiers.floors.len();
     faults.require(
@@ -88,21 +96,25 @@ fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
         format!("{at}.storeys"),
         || format!("must lie between 1 and {most}, and its storeys are the lowest ones of the building; found {storeys}"),
     );
-    let finite = own.at.iter().chain(&own.direction).all(|v| v.is_finite());
-    let length = libm::hypot(own.direction[0], own.direction[1]);
+    let finite = plan_frame
+        .at
+        .iter()
+        .chain(&plan_frame.direction)
+        .all(|v| v.is_finite());
+    let length = libm::hypot(plan_frame.direction[0], plan_frame.direction[1]);
     faults.require(
         finite && (length - 1.0).abs() < 1e-9,
         format!("{at}.direction"),
         || "must be \"x\", \"y\", or an angle from x, counter-clockwise, such as \"30 deg\"".into(),
     );
-    let lines = own.column_lines();
+    let lines = plan_frame.column_lines();
     faults.require(
-        own.lines.is_empty() || own.lines.len() == lines,
+        plan_frame.lines.is_empty() || plan_frame.lines.len() == lines,
         format!("{at}.lines"),
         || {
             format!(
                 "has {} names for {lines} column lines; give one per line, \"\" for a column without a name",
-                own.lines.len()
+                plan_frame.lines.len()
             )
         },
     );
@@ -113,7 +125,7 @@ fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
         || "has nothing to do here: rigid floors hold the ends of beams; leave it out".into(),
     );
     faults.require(
-        own.is_along_an_axis() || !own.has_masses_between_floors(),
+        plan_frame.is_along_an_axis() || !plan_frame.has_masses_between_floors(),
         format!("{at}.column_segments"),
         || "must be 1 for columns with mass in a frame that stands neither along x nor across: masses between floors would couple both directions; or set density = 0 and count the columns in mass".into(),
     );
@@ -133,11 +145,13 @@ fn check_columns(faults: &mut Faults, path: &str, tiers: &Tiers) {
             );
             continue;
         }
-        let again = shared[..index].iter().any(|own| own.name == *name);
+        let again = shared[..index]
+            .iter()
+            .any(|shared_column| shared_column.name == *name);
         faults.require(!again, at.clone(), || {
             format!("is the third column \"{name}\"; two frames can share a column")
         });
-        let [a, b] = [first, second].map(|own| &tiers.frames[own]);
+        let [a, b] = [first, second].map(|frame| &tiers.frames[frame]);
         faults.require(tiers.stands_at_one_point(column), at.clone(), || {
             let [p, q] = lines.map(|[frame, line]| tiers.frames[frame].line_at(line));
             format!(

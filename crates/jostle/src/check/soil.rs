@@ -14,13 +14,13 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     let Some(foundation) = &building.base.foundation else {
         return;
     };
-    let own = format!("{path}.foundation");
+    let text = format!("{path}.foundation");
     let plain = Base {
         foundation: Some(*foundation),
         elevation: building.base.elevation,
         ..Base::default()
     };
-    faults.require(building.base == plain, own.as_str(), || {
+    faults.require(building.base == plain, text.as_str(), || {
         "cannot stand beside base or isolation: the soil is the base; leave out one of them".into()
     });
     let (has_floors, has_plan) = match &building.structure {
@@ -28,33 +28,33 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
         Structure::Tiers(tiers) => (tiers.matrices.is_none(), true),
         Structure::Given(_) => (false, false),
     };
-    faults.require(has_floors, own.as_str(), || {
+    faults.require(has_floors, text.as_str(), || {
         "is for frames and shear buildings, with a plan or without; leave it out".into()
     });
     if let Some(uplift) = &foundation.uplift {
         faults.require(
             has_plan || uplift.springs_across.is_none(),
-            format!("{own}.springs_across"),
+            format!("{text}.springs_across"),
             || "is for buildings with a plan, which rock across too; leave it out".into(),
         );
     }
     if let Some(stiffness) = foundation.torsional_stiffness {
-        faults.positive(stiffness, format!("{own}.torsional_stiffness"), "N.m/rad");
+        faults.positive(stiffness, format!("{text}.torsional_stiffness"), "N.m/rad");
     }
     if let Some(damping) = foundation.torsional_damping {
-        faults.not_negative(damping, format!("{own}.torsional_damping"), "N.m.s/rad");
+        faults.not_negative(damping, format!("{text}.torsional_damping"), "N.m.s/rad");
     }
     for (key, given) in [
         ("torsional_stiffness", foundation.torsional_stiffness),
         ("torsional_damping", foundation.torsional_damping),
     ] {
-        faults.require(has_plan || given.is_none(), format!("{own}.{key}"), || {
+        faults.require(has_plan || given.is_none(), format!("{text}.{key}"), || {
             "is for buildings with a plan, which turn; leave it out".into()
         });
     }
     if let Structure::Frame(frame) = &building.structure {
         let rises = foundation.uplift.is_some();
-        faults.require(rises || !frame.axial.columns_flexible, own.as_str(), || {
+        faults.require(rises || !frame.axial.columns_flexible, text.as_str(), || {
             "is for columns that keep their length: leave out columns = \"flexible\", or write uplift = true".into()
         });
     }
@@ -63,13 +63,13 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
         format!("{path}.damping.modes"),
         || "\"all\" is not possible for a building on a foundation, whose dashpots couple its modes; name one or two modes of the building on rigid ground".into(),
     );
-    faults.positive(foundation.length, format!("{own}.length"), "m");
-    faults.positive(foundation.width, format!("{own}.width"), "m");
-    faults.not_negative(foundation.embedment, format!("{own}.embedment"), "m");
-    faults.positive(foundation.mass, format!("{own}.mass"), "kg");
+    faults.positive(foundation.length, format!("{text}.length"), "m");
+    faults.positive(foundation.width, format!("{text}.width"), "m");
+    faults.not_negative(foundation.embedment, format!("{text}.embedment"), "m");
+    faults.positive(foundation.mass, format!("{text}.mass"), "kg");
     faults.positive(
         foundation.rotary_inertia,
-        format!("{own}.rotary_inertia"),
+        format!("{text}.rotary_inertia"),
         "kg.m2",
     );
 }
@@ -93,13 +93,13 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
         || "is needed where columns can lift off: that of the ground under each".into(),
     );
     let foundation = base.foundation;
-    let Some(uplift) = foundation.and_then(|own| own.uplift) else {
+    let Some(uplift) = foundation.and_then(|foundation| foundation.uplift) else {
         return;
     };
-    let own = format!("{path}.foundation");
+    let text = format!("{path}.foundation");
     let held = uplift.ground.is_some()
-        && foundation.is_some_and(|own| {
-            own.torsional_stiffness.is_none() && own.torsional_damping.is_some()
+        && foundation.is_some_and(|foundation| {
+            foundation.torsional_stiffness.is_none() && foundation.torsional_damping.is_some()
         });
     faults.require(
         !held,
@@ -110,7 +110,7 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
     for (key, count) in [("springs", uplift.springs), ("springs_across", across)] {
         faults.require(
             (2..=MOST_SPRINGS).contains(&count),
-            format!("{own}.{key}"),
+            format!("{text}.{key}"),
             || {
                 format!(
                     "must lie between 2 and {MOST_SPRINGS}, found {count}: one spring cannot hold a foundation that rocks"
@@ -122,7 +122,7 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
     let all = uplift.springs.saturating_mul(across);
     faults.require(
         !has_plan || all <= MOST_IN_PLAN,
-        format!("{own}.springs"),
+        format!("{text}.springs"),
         || {
             format!(
                 "must be at most {MOST_IN_PLAN} in all, found {} times {across}; 5 to 11 along a side are usual",
@@ -131,7 +131,7 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
         },
     );
     if let Some(ends) = uplift.ends {
-        faults.positive(ends, format!("{own}.ends"), "");
+        faults.positive(ends, format!("{text}.ends"), "");
     }
     if let Some(ground) = &uplift.ground {
         let GroundSprings {
@@ -141,20 +141,24 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
         } = *ground;
         faults.positive(
             vertical_stiffness,
-            format!("{own}.vertical_stiffness"),
+            format!("{text}.vertical_stiffness"),
             "N/m",
         );
-        faults.not_negative(vertical_damping, format!("{own}.vertical_damping"), "N.s/m");
+        faults.not_negative(
+            vertical_damping,
+            format!("{text}.vertical_damping"),
+            "N.s/m",
+        );
         if let Some([stiffness, damping]) = sway {
-            faults.positive(stiffness, format!("{own}.sway_stiffness"), "N/m");
-            faults.not_negative(damping, format!("{own}.sway_damping"), "N.s/m");
+            faults.positive(stiffness, format!("{text}.sway_stiffness"), "N/m");
+            faults.not_negative(damping, format!("{text}.sway_damping"), "N.s/m");
         }
     }
     if let Some(bearing) = &uplift.bearing {
-        faults.positive(bearing.strength, format!("{own}.bearing_strength"), "Pa");
+        faults.positive(bearing.strength, format!("{text}.bearing_strength"), "Pa");
         faults.require(
             (0.0..1.0).contains(&bearing.hardening),
-            format!("{own}.bearing_hardening"),
+            format!("{text}.bearing_hardening"),
             || {
                 format!(
                     "must be at least 0 and less than 1, found {}",
@@ -175,8 +179,8 @@ pub(super) fn check_soil(faults: &mut Faults, model: &Model) {
     let foundation = |index: usize| model.buildings[index].base.foundation;
     let all = (0..model.buildings.len()).filter(|&index| foundation(index).is_some());
     let all: Vec<usize> = all.collect();
-    let lifts = |index: usize| foundation(index).and_then(|own| own.uplift);
-    let has_springs = |index: usize| lifts(index).is_some_and(|own| own.ground.is_some());
+    let lifts = |index: usize| foundation(index).and_then(|foundation| foundation.uplift);
+    let has_springs = |index: usize| lifts(index).is_some_and(|lift| lift.ground.is_some());
     let founded = all.iter().copied().filter(|index| !has_springs(*index));
     let founded: Vec<usize> = founded.collect();
     let can_step = match model.analysis.solver {
@@ -312,7 +316,7 @@ fn check_static(faults: &mut Faults, model: &Model, founded: &[usize]) {
         let embedment = model.buildings[index]
             .base
             .foundation
-            .map(|own| own.embedment);
+            .map(|foundation| foundation.embedment);
         faults.require(
             embedment.is_none_or(|depth| depth == 0.0),
             format!("building[{index}].foundation.embedment"),

@@ -23,8 +23,8 @@ pub(super) fn check_space_frame(
     let before = faults.0.len();
     check_lines(faults, path, frame, tiers.floors.len());
     let mut columns = frame.members.iter();
-    let columns_are_rigid = columns.any(|own| {
-        matches!(own.place, SpacePlace::Column { .. }) && own.section.axial_rigidity.is_none()
+    let columns_are_rigid = columns.any(|column| {
+        matches!(column.place, SpacePlace::Column { .. }) && column.section.axial_rigidity.is_none()
     });
     faults.require(
         !building.gravity.preload || !columns_are_rigid || !frame.fibres.is_empty(),
@@ -36,7 +36,7 @@ pub(super) fn check_space_frame(
         path,
         &frame.floor_load,
         tiers.floors.len(),
-        |floor| tiers.floors.get(floor).map_or(0.0, |own| own.mass),
+        |floor| tiers.floors.get(floor).map_or(0.0, |floor| floor.mass),
     );
     for member in &frame.members {
         let section = &member.section;
@@ -57,8 +57,11 @@ pub(super) fn check_space_frame(
         );
     }
     let is_column = |place| matches!(place, SpacePlace::Column { .. });
-    let mut beams = frame.members.iter().filter(|own| !is_column(own.place));
-    if let Some(beam) = beams.find(|own| own.hinges[1].is_some()) {
+    let mut beams = frame
+        .members
+        .iter()
+        .filter(|member| !is_column(member.place));
+    if let Some(beam) = beams.find(|beam| beam.hinges[1].is_some()) {
         faults.add(
             format!("{path}.{}", key(beam.place)),
             format!(
@@ -67,32 +70,42 @@ pub(super) fn check_space_frame(
             ),
         );
     }
-    let mut hinges = frame.members.iter().flat_map(|own| own.hinges).flatten();
+    let mut hinges = frame
+        .members
+        .iter()
+        .flat_map(|member| member.hinges)
+        .flatten();
     faults.require(
-        hinges.all(|own| own.falling_branch().is_none()),
+        hinges.all(|hinge| hinge.falling_branch().is_none()),
         format!("{path}.hinges"),
         || "cannot lose their strength in a space frame; take another rule".into(),
     );
     if !frame.fibres.is_empty() {
         fibres::check_weight(faults, &format!("{path}.hinges"), building);
     }
-    for (place, own) in &frame.fibres {
-        check_fibres(faults, &format!("{path}.hinges"), frame, *place, own);
+    for (place, member_fibres) in &frame.fibres {
+        check_fibres(
+            faults,
+            &format!("{path}.hinges"),
+            frame,
+            *place,
+            member_fibres,
+        );
     }
     if faults.0.len() > before {
         return;
     }
     check_places(faults, path, frame, tiers.floors.len());
-    check_diagonals(faults, path, &frame.diagonals, |own| {
+    check_diagonals(faults, path, &frame.diagonals, |diagonal| {
         let between_floors = || {
-            (own.offsets != [0.0; 2]).then(|| {
+            (diagonal.offsets != [0.0; 2]).then(|| {
                 format!(
                     "{} meets a column between floors, which columns of space frames do not support yet; leave offset and struts out, or model the frame as a plane frame",
-                    own.place
+                    diagonal.place
                 )
             })
         };
-        fault_of_diagonal(frame, tiers.floors.len(), own.place).or_else(between_floors)
+        fault_of_diagonal(frame, tiers.floors.len(), diagonal.place).or_else(between_floors)
     });
     if faults.0.len() == before {
         check_standing(faults, path, frame, tiers.floors.len());
@@ -116,7 +129,7 @@ fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) ->
         ));
     };
     let ends = [place.storey - 1, place.storey].into_iter();
-    let mut loose = ends.zip(place.lines().map(|own| line.crossing(own)));
+    let mut loose = ends.zip(place.lines().map(|other| line.crossing(other)));
     let (floor, [x, y]) = loose.find(|(floor, at)| !frame.has_joint(*floor, *at))?;
     Some(format!(
         "{place} ends at x = {}, y = {} of floor {floor}, where there is no joint; leave it out there, or add the column",
@@ -129,7 +142,7 @@ fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) ->
 fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &SpaceFrame, heights: &[f64]) {
     let field = format!("{path}.rigid_ends");
     for ([floor, x, y], zone) in &frame.rigid_zones {
-        let sound = zone.iter().all(|own| *own >= 0.0 && own.is_finite());
+        let sound = zone.iter().all(|zone| *zone >= 0.0 && zone.is_finite());
         faults.require(sound && frame.has_joint(floor + 1, [*x, *y]), field.as_str(), || {
             format!(
                 "gives x = {}, y = {} at floor {} rigid ends of {zone:?} m; they must not be negative, and a joint must be there",
@@ -140,12 +153,12 @@ fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &SpaceFrame, height
         });
     }
     let mut members = frame.members.iter();
-    if let Some(own) = members.find(|own| frame.clear_length(own.place, heights) <= 0.0) {
-        let [first, last] = frame.rigid_ends(own.place);
+    if let Some(member) = members.find(|member| frame.clear_length(member.place, heights) <= 0.0) {
+        let [first, last] = frame.rigid_ends(member.place);
         faults.add(field, format!(
             "leaves no length between the joints of {}: its {} m hold {first} m and {last} m of rigid ends; give less",
-            name(own.place),
-            frame.length(own.place, heights)
+            name(member.place),
+            frame.length(member.place, heights)
         ));
     }
 }
@@ -156,7 +169,7 @@ fn check_fibres(
     path: &str,
     frame: &SpaceFrame,
     place: SpacePlace,
-    own: &ColumnFibres,
+    fibres: &ColumnFibres,
 ) {
     let mut members = frame.members.iter();
     let column = members.find(|member| member.place == place);
@@ -174,7 +187,7 @@ fn check_fibres(
     faults.require(!column.may_yield(), path, || {
         format!("has both hinges and fibres at {}; keep either", name(place))
     });
-    fibres::check_fibres(faults, path, own, true);
+    fibres::check_fibres(faults, path, fibres, true);
 }
 
 /// The key of a member in a model file.
@@ -262,7 +275,7 @@ fn check_standing(faults: &mut Faults, path: &str, frame: &SpaceFrame, floors: u
     let is_column = |place: SpacePlace| matches!(place, SpacePlace::Column { .. });
     for storey in 0..floors {
         let mut members = frame.members.iter();
-        let held = members.any(|own| is_column(own.place) && own.place.storey() == storey);
+        let held = members.any(|member| is_column(member.place) && member.place.storey() == storey);
         faults.require(held, format!("{path}.column"), || {
             format!(
                 "leaves storey {} without columns; keep one at least in every storey",
@@ -299,7 +312,7 @@ fn check_standing(faults: &mut Faults, path: &str, frame: &SpaceFrame, floors: u
         }
     }
     let mut members = frame.members.iter();
-    if let Some(loose) = members.find(|own| !reached[ends(own.place)[0]]) {
+    if let Some(loose) = members.find(|member| !reached[ends(member.place)[0]]) {
         faults.add(
             format!("{path}.{}", key(loose.place)),
             format!(

@@ -221,23 +221,26 @@ fn a_touch_from_rest_is_damped_as_an_ordinary_one() {
 fn a_given_dashpot_rebounds_by_its_damping_ratio() {
     let mass = effective_mass(MASSES[0], MASSES[1]);
     for ratio in [0.05, 0.2, 0.6, 1.3] {
-        for own in [
+        for dashpot_law in [
             DashpotLaw::Kelvin,
             DashpotLaw::KelvinNoTension,
             DashpotLaw::Approach,
         ] {
-            if own == DashpotLaw::Kelvin && ratio >= 1.0 {
+            if dashpot_law == DashpotLaw::Kelvin && ratio >= 1.0 {
                 continue;
             }
             let damping = ratio * 2.0 * (1e8 * mass).sqrt();
-            let kind = LawKind::Dashpot(Dashpot { law: own, damping });
+            let kind = LawKind::Dashpot(Dashpot {
+                law: dashpot_law,
+                damping,
+            });
             let law = law(kind, 1.0, RestitutionIs::Input);
             let numbers = law.between(MASSES[0], MASSES[1]);
             let found = numbers.damping_ratio(mass).expect("a dashpot");
             assert!((found / ratio - 1.0).abs() < 1e-14, "{found}");
             assert_eq!(law.free_restitution(), None);
-            let due = own.free_restitution(found);
-            if own == DashpotLaw::Kelvin {
+            let due = dashpot_law.free_restitution(found);
+            if dashpot_law == DashpotLaw::Kelvin {
                 let closed = (-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
                 assert!((due - closed).abs() < 1e-14);
             }
@@ -245,7 +248,7 @@ fn a_given_dashpot_rebounds_by_its_damping_ratio() {
                 let got = collide(&law, speed).realised_restitution();
                 assert!(
                     (got - due).abs() < 1e-9,
-                    "{own:?} with {ratio} at {speed}: {got}, {due}"
+                    "{dashpot_law:?} with {ratio} at {speed}: {got}, {due}"
                 );
             }
         }
@@ -264,10 +267,10 @@ fn the_equivalent_coefficient_gives_the_dashpot() {
             LawKind::ModifiedKelvin(ModifiedKelvin::MahmoudJankowski),
         ),
     ];
-    for (own, kind) in by_coefficient {
+    for (dashpot_law, kind) in by_coefficient {
         assert_eq!(
             LawKind::Dashpot(Dashpot {
-                law: own,
+                law: dashpot_law,
                 damping: 1.0
             })
             .name(),
@@ -276,8 +279,11 @@ fn the_equivalent_coefficient_gives_the_dashpot() {
         for e in [0.2, 0.65, 0.9] {
             let known = law(kind, e, RestitutionIs::Input).between(MASSES[0], MASSES[1]);
             let ratio = known.damping_ratio(mass).expect("a dashpot");
-            let found = own.equivalent_restitution(ratio);
-            assert!((found - e).abs() < 1e-12, "{own:?}: {found} for {e}");
+            let found = dashpot_law.equivalent_restitution(ratio);
+            assert!(
+                (found - e).abs() < 1e-12,
+                "{dashpot_law:?}: {found} for {e}"
+            );
         }
     }
     assert_eq!(DashpotLaw::Kelvin.equivalent_restitution(1.2), 0.0);
@@ -374,16 +380,16 @@ fn given_bilinear_constants_are_those_of_a_design_speed() {
         ..BilinearShape::USUAL
     };
     let designed = law(LawKind::Bilinear(shape), 0.6, RestitutionIs::Input);
-    let ForceLaw::Bilinear(own) = designed.between(MASSES[0], MASSES[1]) else {
+    let ForceLaw::Bilinear(bilinear) = designed.between(MASSES[0], MASSES[1]) else {
         panic!("a bilinear law");
     };
     let constants = BilinearConstants {
-        second_stiffness: own.second_stiffness,
-        yield_indentation: own.yield_indentation,
+        second_stiffness: bilinear.second_stiffness,
+        yield_indentation: bilinear.yield_indentation,
     };
     let given = ContactLaw {
         kind: LawKind::BilinearGiven(constants),
-        stiffness: own.first_stiffness,
+        stiffness: bilinear.first_stiffness,
         ..designed
     };
     for speed in [0.05, 0.8, 1.5] {
@@ -393,7 +399,7 @@ fn given_bilinear_constants_are_those_of_a_design_speed() {
     let LawKind::BilinearGiven(half) = given.with_stiffness(0.5 * given.stiffness).kind else {
         panic!("constants");
     };
-    assert_eq!(half.second_stiffness, 0.5 * own.second_stiffness);
+    assert_eq!(half.second_stiffness, 0.5 * bilinear.second_stiffness);
 }
 
 /// Points of a contact that share it push together as the whole.

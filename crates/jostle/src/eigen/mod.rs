@@ -71,7 +71,10 @@ impl Mode {
         let moved = equations.mass.iter().zip(driven).zip(&self.shape);
         let moved = moved.filter(|((_, driven), _)| **driven > 0.0);
         // Shapes have a mass of 1 kg.
-        moved.map(|((mass, _), own)| mass * own * own).sum::<f64>() >= 0.5
+        moved
+            .map(|((mass, _), displacement)| mass * displacement * displacement)
+            .sum::<f64>()
+            >= 0.5
     }
 
     /// A mode from ω² and a shape of any scale.

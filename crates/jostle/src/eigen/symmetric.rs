@@ -25,21 +25,21 @@ pub(crate) fn held(lower: &[Vec<f64>], held: &[bool]) -> Vec<(f64, Vec<f64>)> {
         let column: Vec<f64> = (0..n).map(|row| at(&rest, row, hold)).collect();
         let pivot = column[hold];
         for (i, row) in rest.iter_mut().enumerate() {
-            for (value, own) in row.iter_mut().zip(&column) {
-                *value -= column[i] * own / pivot;
+            for (value, entry) in row.iter_mut().zip(&column) {
+                *value -= column[i] * entry / pivot;
             }
         }
     }
     let kept: Vec<usize> = (0..n).filter(|dof| !held[*dof]).collect();
     let part = kept.iter().enumerate();
     let part: Vec<Vec<f64>> = part
-        .map(|(own, &i)| kept[..=own].iter().map(|&j| at(&rest, i, j)).collect())
+        .map(|(row, &i)| kept[..=row].iter().map(|&j| at(&rest, i, j)).collect())
         .collect();
     let (values, vectors) = eigen(&part);
     let pairs = values.into_iter().zip(vectors).map(|(value, vector)| {
         let mut whole = vec![0.0; n];
-        for (&dof, own) in kept.iter().zip(vector) {
-            whole[dof] = own;
+        for (&dof, vector) in kept.iter().zip(vector) {
+            whole[dof] = vector;
         }
         (value, whole)
     });
@@ -77,12 +77,12 @@ fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let left = -norm(&mirror).copysign(mirror[0]);
         next.push(left);
         mirror[0] -= left;
-        let own = norm(&mirror);
-        if own == 0.0 {
+        let norm = norm(&mirror);
+        if norm == 0.0 {
             mirrors.push(Vec::new());
             continue;
         }
-        mirror.iter_mut().for_each(|v| *v /= own);
+        mirror.iter_mut().for_each(|v| *v /= norm);
         let rows = &mut matrix[k + 1..];
         for (product, row) in product.iter_mut().zip(&*rows) {
             *product = dot(&row[k + 1..], &mirror);

@@ -51,15 +51,15 @@ impl Peak {
 
 impl From<Extreme> for Peak {
     /// The value is the greatest or the least, by its sign.
-    fn from(own: Extreme) -> Self {
+    fn from(extreme: Extreme) -> Self {
         let none = Extreme::default();
-        match own.value < 0.0 {
+        match extreme.value < 0.0 {
             true => Self {
                 greatest: none,
-                least: own,
+                least: extreme,
             },
             false => Self {
-                greatest: own,
+                greatest: extreme,
                 least: none,
             },
         }
@@ -110,8 +110,8 @@ impl Peaks {
     /// Sizes of the peaks of all quantities that are wanted, in the order of the list.
     #[must_use]
     pub fn sizes(&self, wanted: impl Fn(Column) -> bool) -> Vec<f64> {
-        let own = self.iter().filter(|(column, _)| wanted(*column));
-        own.map(|(_, peak)| peak.size()).collect()
+        let peaks = self.iter().filter(|(column, _)| wanted(*column));
+        peaks.map(|(_, peak)| peak.size()).collect()
     }
 
     /// Peaks of a floor, from 1, along the row; 0 is a mat or a wall.
@@ -134,7 +134,7 @@ impl Peaks {
     #[must_use]
     pub fn floors(&self, building: usize) -> Vec<PeaksOf<'_>> {
         let floors = (1..).map(|floor| self.floor(building, floor));
-        let known = |own: &PeaksOf<'_>| self.place(own.column(Kind::Displacement)).is_some();
+        let known = |peaks: &PeaksOf<'_>| self.place(peaks.column(Kind::Displacement)).is_some();
         floors.take_while(known).collect()
     }
 
@@ -147,8 +147,8 @@ impl Peaks {
     /// Greatest elastic base shear of a building \[N\].
     #[must_use]
     pub fn base_shear(&self, building: usize) -> f64 {
-        let own = Owner::Building(building);
-        self.of(Column::along(own, Kind::Shear)).size()
+        let building = Owner::Building(building);
+        self.of(Column::along(building, Kind::Shear)).size()
     }
 
     /// Greatest closing of a contact of the system, u_left − u_right \[m\].
@@ -178,7 +178,7 @@ impl Peaks {
             None => {
                 let floors = self.floors(building).into_iter();
                 floors
-                    .map(|own| own.displacement().size())
+                    .map(|floor| floor.displacement().size())
                     .fold(0.0, f64::max)
             }
         }
@@ -186,7 +186,9 @@ impl Peaks {
 
     /// Where the peak of a quantity stands.
     fn place(&self, column: Column) -> Option<usize> {
-        self.0.binary_search_by_key(&column, |(own, _)| *own).ok()
+        self.0
+            .binary_search_by_key(&column, |(candidate, _)| *candidate)
+            .ok()
     }
 }
 
@@ -279,8 +281,8 @@ impl PeaksOf<'_> {
     /// The same after a low-pass filter; `None` if it was not computed \[m/s²\].
     #[must_use]
     pub fn filtered_acceleration(&self) -> Option<f64> {
-        let own = self.peaks.get(self.column(Kind::FilteredAcceleration))?;
-        Some(own.size())
+        let peak = self.peaks.get(self.column(Kind::FilteredAcceleration))?;
+        Some(peak.size())
     }
 
     /// Greatest drift ratio of the storey below, either sign \[–, rad/m\].

@@ -181,10 +181,10 @@ impl Rows {
         for (block, values) in full.chunks_mut(self.rows_per_block).enumerate() {
             self.read(block, column * self.rows_per_block, values);
         }
-        let own = self.newest.iter().skip(column).step_by(self.width);
+        let recent = self.newest.iter().skip(column).step_by(self.width);
         newest
             .iter_mut()
-            .zip(own)
+            .zip(recent)
             .for_each(|(to, from)| *to = *from);
         values
     }

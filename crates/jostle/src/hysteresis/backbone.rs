@@ -235,9 +235,9 @@ impl Backbone {
         slope: f64,
         residual: f64,
     ) -> Result<Self, Vec<SpringFault>> {
-        let [positive, negative] = [positive, negative].map(|own| Corners {
+        let [positive, negative] = [positive, negative].map(|corners| Corners {
             post_yield: 0.0,
-            ..own
+            ..corners
         });
         let mut faults = Vec::new();
         let mut require = |good: bool, quantity, problem: String| {
@@ -269,12 +269,12 @@ impl Backbone {
                 Err(others)
             }
             Ok(_) if !faults.is_empty() => Err(faults),
-            Ok(mut own) => {
-                for side in &mut own.sides {
+            Ok(mut backbone) => {
+                for side in &mut backbone.sides {
                     side.post_yield = slope * initial;
                     side.residual = residual * side.yielding.force;
                 }
-                Ok(own)
+                Ok(backbone)
             }
         }
     }
@@ -391,18 +391,18 @@ impl Backbone {
     /// The same deformations under forces times a factor > 0 \[–\].
     #[must_use]
     pub(super) fn times(&self, factor: f64) -> Self {
-        let corner = |own: Corner| Corner {
-            force: factor * own.force,
-            ..own
+        let corner = |corner: Corner| Corner {
+            force: factor * corner.force,
+            ..corner
         };
         Self {
             initial: factor * self.initial,
-            sides: self.sides.map(|own| BackboneSide {
-                cracking: corner(own.cracking),
-                yielding: corner(own.yielding),
-                post_cracking: factor * own.post_cracking,
-                post_yield: factor * own.post_yield,
-                residual: factor * own.residual,
+            sides: self.sides.map(|side| BackboneSide {
+                cracking: corner(side.cracking),
+                yielding: corner(side.yielding),
+                post_cracking: factor * side.post_cracking,
+                post_yield: factor * side.post_yield,
+                residual: factor * side.residual,
             }),
         }
     }

@@ -149,7 +149,7 @@ impl CircularForce {
         strength: Strength,
     ) -> PlanAnswer {
         let k = self.stiffness;
-        let [first, last] = [rates.map(|own| own.before), rates.map(|own| own.after)];
+        let [first, last] = [rates.map(|rate| rate.before), rates.map(|rate| rate.after)];
         let per_deformation = rates[0].per_deformation;
         let held = libm::hypot(before[0], before[1]);
         let start = strength.at(libm::hypot(first[0], first[1]))[0];
@@ -188,9 +188,9 @@ impl CircularForce {
         let mut answer = if goes_on {
             // From the circle of the start to that of the end.
             let scaled = before.map(|force| force * end / held);
-            let mut own = self.slide(scaled, path, end);
-            own.force = self.turn(before, path, [start, end]);
-            own
+            let mut slide = self.slide(scaled, path, end);
+            slide.force = self.turn(before, path, [start, end]);
+            slide
         } else {
             let held = libm::hypot(before[0], before[1]);
             if held > end && dot(before, path) < 0.0 {
@@ -217,10 +217,10 @@ impl CircularForce {
     fn pulled_in(&self, trial: [f64; 2], strength: f64) -> PlanAnswer {
         let length = libm::hypot(trial[0], trial[1]);
         let radius = trial.map(|force| force / length);
-        let own = [0.0, 0.0, self.stiffness * strength / length];
+        let tangent = [0.0, 0.0, self.stiffness * strength / length];
         PlanAnswer::new(
             radius.map(|share| strength * share),
-            turned_back(own, radius),
+            turned_back(tangent, radius),
         )
     }
 
@@ -272,12 +272,12 @@ impl CircularForce {
         let sin_by_aside = 2.0 * faded * scale / (strength + reached);
         let lag = sin_by_aside * (ratio * strength + aside * aside * (1.0 - ratio) / strength);
         let turns = (1.0 - lag).max(0.0) / length;
-        let own = [
+        let tangent = [
             k * sin * sin,
             -0.5 * sin * (k * cos + strength * turns),
             p * turns,
         ];
-        PlanAnswer::new(force, turned_back(own, along))
+        PlanAnswer::new(force, turned_back(tangent, along))
     }
 
     fn stop(&self, to: [f64; 2]) -> PlanAnswer {
@@ -292,10 +292,10 @@ impl CircularForce {
             return PlanAnswer::new([0.0; 2], [0.0; 3]);
         }
         let radius = to.map(|value| value / distance);
-        let own = [k, 0.0, k * into / distance];
+        let tangent = [k, 0.0, k * into / distance];
         PlanAnswer::new(
             radius.map(|share| k * into * share),
-            turned_back(own, radius),
+            turned_back(tangent, radius),
         )
     }
 }
@@ -391,11 +391,11 @@ impl Hysteresis {
         let still = HysteresisMemory::default();
         let mut moved = *memory;
         let (force, tangent) = match self.circular().filter(|_| row != ForceRow::Between) {
-            Some(own) => {
+            Some(circular) => {
                 let at_rest = [Rates::default(); 2];
-                let answer = own.answer([memory, &still], [deformation, 0.0], &at_rest);
+                let answer = circular.answer([memory, &still], [deformation, 0.0], &at_rest);
                 let mut rows = [*memory, still, still];
-                own.slide_stages(&mut rows, answer.force);
+                circular.slide_stages(&mut rows, answer.force);
                 moved = rows[0];
                 (answer.force[0], answer.tangents[0] + answer.tangents[2])
             }

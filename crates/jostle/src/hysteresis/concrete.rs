@@ -388,8 +388,8 @@ mod tests {
                 let to = (1.0 - share) * ends[0] + share * ends[1];
                 let before = parts.force();
                 let change = to - parts.deformation();
-                let own = fibre.respond(&parts, to);
-                parts = own.memory;
+                let response = fibre.respond(&parts, to);
+                parts = response.memory;
                 sum_parts += 0.5 * (before + parts.force()) * change;
             }
             assert_eq!(once, parts, "to {}", ends[1]);

@@ -435,10 +435,10 @@ mod tests {
             half: 0.3,
         };
         for law in [MenegottoPinto::USUAL, blunt] {
-            let (own, mut published) = (bar(law), Published::new(law, true));
+            let (spring, mut published) = (bar(law), Published::new(law, true));
             let (mut memory, mut worst) = (HysteresisMemory::default(), 0.0_f64);
             for strain in paths() {
-                memory = own.respond(&memory, strain).memory;
+                memory = spring.respond(&memory, strain).memory;
                 worst = worst.max((memory.force() - published.stress(strain)).abs());
             }
             assert!(
@@ -452,24 +452,24 @@ mod tests {
     /// A small reversal leaves no trace.
     #[test]
     fn small_reversals_are_forgotten() {
-        let own = bar(MenegottoPinto::USUAL);
-        let mut with = own.respond(&HysteresisMemory::default(), 0.008).memory;
-        let without = own.respond(&with, 0.012).memory;
+        let bar = bar(MenegottoPinto::USUAL);
+        let mut with = bar.respond(&HysteresisMemory::default(), 0.008).memory;
+        let without = bar.respond(&with, 0.012).memory;
         for strain in [0.0078, 0.0079, 0.00775] {
-            with = own.respond(&with, strain).memory;
+            with = bar.respond(&with, strain).memory;
         }
-        assert_eq!(own.respond(&with, 0.012).memory, without);
+        assert_eq!(bar.respond(&with, 0.012).memory, without);
     }
 
     /// Work is the integral of the force, whether the way is taken at once or in small parts, and loops dissipate.
     #[test]
     fn work_is_the_area_under_the_force() {
-        let own = bar(MenegottoPinto::USUAL);
+        let bar = bar(MenegottoPinto::USUAL);
         let (mut once, mut sum_once) = (HysteresisMemory::default(), 0.0);
         let (mut parts, mut sum_parts) = (HysteresisMemory::default(), 0.0);
         let mut from = 0.0;
         for to in TURNS {
-            let whole = own.respond(&once, to);
+            let whole = bar.respond(&once, to);
             sum_once += whole.work;
             once = whole.memory;
             for part in 1..=20_000 {
@@ -481,7 +481,7 @@ mod tests {
                     (1.0 - share) * from + share * to
                 };
                 let change = at - parts.deformation();
-                parts = own.respond(&parts, at).memory;
+                parts = bar.respond(&parts, at).memory;
                 sum_parts += 0.5 * (before + parts.force()) * change;
             }
             assert_eq!(once, parts, "to {to}");
@@ -492,26 +492,26 @@ mod tests {
             );
             from = to;
         }
-        assert!(sum_once - own.recoverable_energy(&once) > 0.1 * STRENGTH * 0.1);
+        assert!(sum_once - bar.recoverable_energy(&once) > 0.1 * STRENGTH * 0.1);
     }
 
     /// Between two corners the force is a straight line whose slope is the tangent at its start.
     #[test]
     fn corners_bound_straight_lines() {
-        let own = bar(MenegottoPinto::USUAL);
+        let bar = bar(MenegottoPinto::USUAL);
         let mut memory = HysteresisMemory::default();
         let mut corners = 0;
         for turn in TURNS {
             let towards = Side::from_change(turn - memory.deformation());
             loop {
-                let corner = own.next_corner(&memory, towards);
+                let corner = bar.next_corner(&memory, towards);
                 let end = match towards {
                     Side::Positive => corner.min(turn),
                     Side::Negative => corner.max(turn),
                 };
                 let here = memory;
-                let middle = own.respond(&here, 0.5 * (here.deformation() + end));
-                memory = own.respond(&here, end).memory;
+                let middle = bar.respond(&here, 0.5 * (here.deformation() + end));
+                memory = bar.respond(&here, end).memory;
                 let expected = 0.5 * (here.force() + memory.force());
                 assert!(
                     (middle.force - expected).abs() < 1e-9 * STRENGTH,

@@ -45,14 +45,18 @@ impl SlidingStage {
         let path = [0, 1].map(|axis| (force[axis] - before[axis]) / k);
         let held = slider.slide(self.held(from, before), path, self.friction);
         let [x, y, between] = held.tangents;
-        let own = [x + between, -between, y + between].map(|tangent| tangent / (k * k));
-        let mut flexibility = [1.0 / k - own[0], -own[1], 1.0 / k - own[2]];
+        let compliance = [x + between, -between, y + between].map(|tangent| tangent / (k * k));
+        let mut flexibility = [
+            1.0 / k - compliance[0],
+            -compliance[1],
+            1.0 / k - compliance[2],
+        ];
         let mut place = [0, 1].map(|axis| (force[axis] - held.force[axis]) / k);
         let reached = libm::hypot(place[0], place[1]);
         if reached > self.travel {
             let share = self.travel / reached;
-            let [c, s] = place.map(|own| own / reached);
-            place = [c, s].map(|own| own * self.travel);
+            let [c, s] = place.map(|place| place / reached);
+            place = [c, s].map(|value| value * self.travel);
             // What goes outwards is held: only what moves it along the rim is left of ds/dF.
             let [a, b, d] = flexibility;
             let along = share * (s * s * a - 2.0 * s * c * b + c * c * d);
@@ -63,16 +67,16 @@ impl SlidingStage {
 
     /// Friction under a force: at the rim, whose reaction is along the radius, what it can bear.
     fn held(&self, place: [f64; 2], force: [f64; 2]) -> [f64; 2] {
-        let own = [0, 1].map(|axis| force[axis] - self.stiffness * place[axis]);
-        let held = libm::hypot(own[0], own[1]);
+        let rest = [0, 1].map(|axis| force[axis] - self.stiffness * place[axis]);
+        let held = libm::hypot(rest[0], rest[1]);
         let away = libm::hypot(place[0], place[1]);
         if held <= self.friction || away == 0.0 {
-            return own;
+            return rest;
         }
-        let [c, s] = place.map(|own| own / away);
-        let aside = (c * own[1] - s * own[0]).clamp(-self.friction, self.friction);
+        let [c, s] = place.map(|place| place / away);
+        let aside = (c * rest[1] - s * rest[0]).clamp(-self.friction, self.friction);
         let outwards = ((self.friction - aside) * (self.friction + aside)).sqrt();
-        let outwards = outwards.min(c * own[0] + s * own[1]);
+        let outwards = outwards.min(c * rest[0] + s * rest[1]);
         [c * outwards - s * aside, s * outwards + c * aside]
     }
 }
@@ -95,17 +99,17 @@ struct Missed {
 impl Way<'_> {
     fn missed(&self, force: [f64; 2]) -> Missed {
         let before = self.from.map(|memory| memory.force);
-        let stretched = force.map(|own| own / self.elastic);
+        let stretched = force.map(|force| force / self.elastic);
         let mut by = [0, 1].map(|axis| self.to[axis] - stretched[axis]);
         let mut flexibility = [1.0 / self.elastic, 0.0, 1.0 / self.elastic];
         let mut scale = size(self.to) + size(stretched);
         for (index, stage) in self.stages.iter().enumerate() {
             let place = self.from.map(|memory| memory.offsets[index]);
-            let own = stage.slid(place, before, force);
-            by = [0, 1].map(|axis| by[axis] - own.place[axis]);
-            scale += size(own.place);
-            for (sum, own) in flexibility.iter_mut().zip(own.flexibility) {
-                *sum += own;
+            let slid = stage.slid(place, before, force);
+            by = [0, 1].map(|axis| by[axis] - slid.place[axis]);
+            scale += size(slid.place);
+            for (sum, flexibility) in flexibility.iter_mut().zip(slid.flexibility) {
+                *sum += flexibility;
             }
         }
         Missed {
@@ -191,7 +195,7 @@ pub(super) fn places(
 
 fn stiffness_of([a, b, c]: [f64; 3]) -> [f64; 3] {
     let determinant = a * c - b * b;
-    [c, -b, a].map(|own| own / determinant)
+    [c, -b, a].map(|value| value / determinant)
 }
 
 #[cfg(test)]
@@ -224,7 +228,7 @@ mod tests {
         let places = places(stages, [x, y], force);
         for (axis, row) in rows.iter_mut().enumerate() {
             row.stand_at(to[axis], force[axis], Side::Positive);
-            row.offsets = places.map(|own| own[axis]);
+            row.offsets = places.map(|place| place[axis]);
         }
     }
 
@@ -240,7 +244,11 @@ mod tests {
                 let x = f64::from(i);
                 let to = 4.4e-4 * x * (0.03 * x).sin() + 0.01 * (0.37 * x).sin();
                 memory = plane.respond(&memory, to).memory;
-                follow(&mut rows, &STAGES, direction.map(|own| own * to));
+                follow(
+                    &mut rows,
+                    &STAGES,
+                    direction.map(|direction| direction * to),
+                );
                 for axis in [0, 1] {
                     let due = direction[axis] * memory.force();
                     let apart = (rows[axis].force() - due).abs();
@@ -277,7 +285,7 @@ mod tests {
                     [radius * angle.cos(), radius * angle.sin()],
                 );
             }
-            let [s, force] = [rows.map(|own| own.offsets[0]), rows.map(|own| own.force())];
+            let [s, force] = [rows.map(|row| row.offsets[0]), rows.map(|row| row.force())];
             let q = [0, 1].map(|axis| force[axis] - k * s[axis]);
             assert!((q[0].hypot(q[1]) / f - 1.0).abs() < 1e-9);
             // Its velocity is at a right angle to s.
@@ -295,13 +303,16 @@ mod tests {
     /// Three stages on a circle: each slides on a circle of its own, with the phase of its friction.
     #[test]
     fn three_stages_on_a_circle_have_the_closed_form() {
-        let stages = STAGES.map(|own| SlidingStage { travel: 5.0, ..own });
+        let stages = STAGES.map(|stage| SlidingStage {
+            travel: 5.0,
+            ..stage
+        });
         // For a force of length F turning steadily, stage i has |s| = √(F² − f²)/k and lags by asin(f/F).
         let force = 2.0e5_f64;
         let mut sum = [force / ELASTIC, 0.0];
-        for own in &stages {
-            let size = (force * force - own.friction * own.friction).sqrt() / own.stiffness;
-            let lag = (own.friction / force).asin();
+        for stage in &stages {
+            let size = (force * force - stage.friction * stage.friction).sqrt() / stage.stiffness;
+            let lag = (stage.friction / force).asin();
             sum[0] += size * lag.cos();
             sum[1] -= size * lag.sin();
         }
@@ -316,7 +327,7 @@ mod tests {
                     [radius * angle.cos(), radius * angle.sin()],
                 );
             }
-            let found = rows.map(|own| own.force());
+            let found = rows.map(|row| row.force());
             let ahead = found[1].atan2(found[0]);
             let due = -sum[1].atan2(sum[0]);
             (found[0].hypot(found[1]) / force - 1.0)

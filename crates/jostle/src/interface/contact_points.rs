@@ -282,9 +282,9 @@ fn all(
         return common(left, right, tolerance);
     };
     let mut pairs = common(left, right, tolerance).unwrap_or_default();
-    for (side, own, other) in [(0, a, b), (1, b, a)] {
+    for (side, one, other) in [(0, a, b), (1, b, a)] {
         let met: Vec<f64> = pairs.iter().filter_map(|pair| pair[side]).collect();
-        let alone = own.floors.iter().filter(|height| !met.contains(height));
+        let alone = one.floors.iter().filter(|height| !met.contains(height));
         for &height in alone.filter(|height| other.is_beside(**height)) {
             let column = other.point(height, LEVEL_TOLERANCE).map_err(|problem| {
                 if other.has_columns() {
@@ -293,7 +293,7 @@ fn all(
                 Misfit::all(format!(
                     "\"all\" needs columns that can be hit, and \"{}\" has none at {height:.3} m, where \"{}\" has a floor; {}",
                     other.building.name,
-                    own.building.name,
+                    one.building.name,
                     remedy(a, b)
                 ))
             })?;
@@ -460,11 +460,11 @@ impl Model {
             if found.iter().any(|known| known.between == [left, right]) {
                 continue;
             }
-            let own = self
+            let gaps = self
                 .gaps
                 .iter()
                 .filter(|other| other.between == gap.between);
-            let pairs: Vec<PointPair> = own
+            let pairs: Vec<PointPair> = gaps
                 .filter_map(|gap| {
                     let sides = self.neighbours(gap.between);
                     point_pairs(&gap.floors, sides, gap.level_tolerance).ok()
@@ -475,7 +475,7 @@ impl Model {
                 continue;
             };
             let heights = [a.floor_levels(), b.floor_levels()];
-            let feet = [a, b].map(|own| own.base.elevation);
+            let feet = [a, b].map(|building| building.base.elevation);
             let floors = [0, 1].map(|side| {
                 let roof = heights[1 - side].last().copied().unwrap_or(0.0);
                 let within = |height: f64| {
@@ -510,7 +510,7 @@ fn check_room(pairs: &[PointPair]) -> Result<(), Vec<Misfit>> {
     for side in 0..2 {
         for (entry, pair) in pairs.iter().enumerate() {
             let others = pairs[..entry].iter().filter_map(|other| other[side]);
-            if let Some(problem) = pair[side].and_then(|own| crowded(own, others)) {
+            if let Some(problem) = pair[side].and_then(|pair| crowded(pair, others)) {
                 return Err(vec![Misfit::at(entry, problem)]);
             }
         }

@@ -181,12 +181,12 @@ mod tests {
         let mut pairs = Vec::new();
         for row in 0..5 {
             for column in 0..5 {
-                let own = name(5 * row + column);
+                let building = name(5 * row + column);
                 if column < 4 {
-                    pairs.push((own, name(5 * row + column + 1)));
+                    pairs.push((building, name(5 * row + column + 1)));
                 }
                 if row < 4 {
-                    pairs.push((own, name(5 * row + column + 5)));
+                    pairs.push((building, name(5 * row + column + 5)));
                 }
             }
         }
@@ -194,12 +194,12 @@ mod tests {
         let places: Vec<usize> = (0..pairs.len()).collect();
         let firsts = firsts(&block, &places);
         for (place, first) in firsts.iter().enumerate() {
-            let own = pairs[block.order[place]];
+            let pair = pairs[block.order[place]];
             let shares = |other: &usize| {
                 let other = pairs[block.order[*other]];
                 [other.0, other.1]
                     .iter()
-                    .any(|b| [own.0, own.1].contains(b))
+                    .any(|b| [pair.0, pair.1].contains(b))
             };
             assert_eq!(places.iter().find(|other| shares(other)), Some(first));
         }

@@ -53,8 +53,8 @@ impl JoinedPoints {
 
     /// Heights above its base of the points on the left and on the right face of a building of the model that are not floors \[m\].
     pub(crate) fn points_between_floors(&self, model: &Model, building: usize) -> [Vec<f64>; 2] {
-        let own = model.buildings.get(building);
-        let foot = own.map_or(0.0, |own| own.base.elevation);
+        let building_model = model.buildings.get(building);
+        let foot = building_model.map_or(0.0, |building| building.base.elevation);
         let mut points = [Vec::new(), Vec::new()];
         for joined in self.gaps.iter().chain(&self.links) {
             for side in 0..2 {

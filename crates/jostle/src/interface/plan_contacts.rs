@@ -117,10 +117,10 @@ pub(crate) fn plan_faces(
     contact: &PlanContact,
 ) -> Vec<PlanFace> {
     let mut found = Vec::new();
-    for (i, (own, outward)) in edges(first).enumerate() {
+    for (i, (edge, outward)) in edges(first).enumerate() {
         for (j, (other, inward)) in edges(second).enumerate() {
             let parts = [PlanPart::Edge(i), PlanPart::Edge(j)];
-            found.extend(face(parts, [own, other], [outward, inward], contact));
+            found.extend(face(parts, [edge, other], [outward, inward], contact));
         }
     }
     found.extend(corners(first, second, contact, 1.0));
@@ -132,7 +132,7 @@ pub(crate) fn plan_faces(
 /// The face of two edges with their outward normals, if they form one.
 fn face(
     parts: [PlanPart; 2],
-    [own, other]: [[PlanPoint; 2]; 2],
+    [one, other]: [[PlanPoint; 2]; 2],
     [outward, inward]: [PlanPoint; 2],
     contact: &PlanContact,
 ) -> Option<PlanFace> {
@@ -142,7 +142,7 @@ fn face(
     let normal = unit(minus(outward, inward));
     let along = [-normal[1], normal[0]];
     // The edge of the first plan runs in the direction of `along`, that of the second against it.
-    let ends = [own.map(|p| dot(p, along)), other.map(|p| dot(p, along))];
+    let ends = [one.map(|p| dot(p, along)), other.map(|p| dot(p, along))];
     let from = ends[0][0].max(ends[1][1]);
     let to = ends[0][1].min(ends[1][0]);
     let overlap = to - from;
@@ -155,7 +155,7 @@ fn face(
         [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
     };
     let point = |s: f64, share: f64| {
-        let [near, far] = [at(own, s), at(other, s)];
+        let [near, far] = [at(one, s), at(other, s)];
         FacePoint {
             at: midway(near, far),
             gap: dot(minus(far, near), normal),
@@ -191,11 +191,11 @@ fn corners(
     contact: &PlanContact,
     sign: f64,
 ) -> Vec<PlanFace> {
-    let own: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
+    let sides: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
     let mut found = Vec::new();
-    for (index, (ends, after)) in own.iter().enumerate() {
+    for (index, (ends, after)) in sides.iter().enumerate() {
         let corner = ends[0];
-        let before = own[(index + own.len() - 1) % own.len()].1;
+        let before = sides[(index + sides.len() - 1) % sides.len()].1;
         for (edge, ([a, b], outward)) in edges(other).enumerate() {
             let towards = outward.map(|value| -value);
             // The corner points at the edge: its direction lies between the normals of both edges of the corner.
@@ -256,18 +256,18 @@ fn passing_corners(
     contact: &PlanContact,
 ) -> Vec<PlanFace> {
     let mut found = Vec::new();
-    for own in Corner::all(first) {
+    for corner in Corner::all(first) {
         for other in Corner::all(second) {
-            let apart = minus(other.at, own.at);
+            let apart = minus(other.at, corner.at);
             let distance = libm::hypot(apart[0], apart[1]);
             if !(0.0..=contact.reach).contains(&distance) || distance == 0.0 {
                 continue;
             }
             let inward = other.outward.map(|normal| normal.map(|value| -value));
-            let Some(lower) = nearer(own.outward[0], inward[0], apart, 1.0) else {
+            let Some(lower) = nearer(corner.outward[0], inward[0], apart, 1.0) else {
                 continue;
             };
-            let Some(upper) = nearer(own.outward[1], inward[1], apart, -1.0) else {
+            let Some(upper) = nearer(corner.outward[1], inward[1], apart, -1.0) else {
                 continue;
             };
             if cross(lower, upper) <= libm::sin(FACING) {
@@ -276,10 +276,13 @@ fn passing_corners(
             let normals = [lower, upper];
             let gaps = normals.map(|normal| dot(normal, apart));
             for (normal, beyond) in [(0, 1), (1, 0)] {
-                let at = midway(own.at, other.at);
+                let at = midway(corner.at, other.at);
                 found.push(PlanFace {
                     kind: PlanContactKind::Corner,
-                    parts: [PlanPart::Corner(own.index), PlanPart::Corner(other.index)],
+                    parts: [
+                        PlanPart::Corner(corner.index),
+                        PlanPart::Corner(other.index),
+                    ],
                     normal: normals[normal],
                     overlap: 0.0,
                     middle: at,
@@ -310,9 +313,9 @@ struct Corner {
 
 impl Corner {
     fn all(plan: &[PlanPoint]) -> impl Iterator<Item = Self> {
-        let own: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
-        let before = own.clone().into_iter().cycle().skip(own.len() - 1);
-        let corners = own.into_iter().zip(before).enumerate();
+        let sides: Vec<([PlanPoint; 2], PlanPoint)> = edges(plan).collect();
+        let before = sides.clone().into_iter().cycle().skip(sides.len() - 1);
+        let corners = sides.into_iter().zip(before).enumerate();
         let corners = corners.map(|(index, (after, before))| Self {
             index,
             at: after.0[0],

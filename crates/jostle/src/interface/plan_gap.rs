@@ -44,7 +44,10 @@ impl Side {
     /// Index of the floor at a height; 0 for a wall, which has none.
     fn floor(&self, height: Option<f64>) -> Option<usize> {
         match height {
-            Some(_) => self.heights.iter().position(|own| Some(*own) == height),
+            Some(_) => self
+                .heights
+                .iter()
+                .position(|candidate| Some(*candidate) == height),
             None => self.heights.is_empty().then_some(0),
         }
     }

@@ -9,8 +9,11 @@ use crate::system::System;
 /// laws of bumpers and of velocities, and for stiffnesses per length of a face \[N/m^1.5 or N/m\].
 #[must_use]
 pub fn advised_stiffness(system: &System, index: usize, gap: &Gap) -> Option<StiffnessRange> {
-    let own = system.contacts.iter().filter(|own| own.gap == index);
-    let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
+    let contacts = system
+        .contacts
+        .iter()
+        .filter(|contact| contact.gap == index);
+    let heaviest = contacts.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
     let contact = heaviest.filter(|_| !gap.in_plan.per_length)?;
     let materials = [SlabMaterial::default(); 2];
     advised_range(gap.law.kind, materials, contact.struck_masses())

@@ -12,19 +12,23 @@ const SHARE: f64 = 0.05;
 /// Calls `add` with building, number and share of critical damping of the first lateral modes, by the damping of the building alone:
 /// dashpots of bases, soil, bearings and links are meant to damp more.
 fn ratios(known: &Known<'_>, mut add: impl FnMut(&Building, usize, f64)) {
-    for (building, own) in known.model.buildings.iter().zip(&known.system.buildings) {
+    for (building, building_system) in known.model.buildings.iter().zip(&known.system.buildings) {
         // Bearings and soil have modes of their own.
         if building.base.isolation.is_some() || building.base.foundation.is_some() {
             continue;
         }
-        for (index, mode) in own.lateral_modes().take(MODES).enumerate() {
+        for (index, mode) in building_system.lateral_modes().take(MODES).enumerate() {
             let share = mode
                 .effective_mass_ratio_x
                 .max(mode.effective_mass_ratio_across);
             if share < SHARE {
                 continue;
             }
-            add(building, index + 1, own.damping_by_coefficients(mode));
+            add(
+                building,
+                index + 1,
+                building_system.damping_by_coefficients(mode),
+            );
         }
     }
 }

@@ -10,11 +10,11 @@ pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for own in &summary.buildings {
-        for floor in &own.floors {
+    for building in &summary.buildings {
+        for floor in &building.floors {
             let drift = floor.greatest_drift();
             tally.add(drift, || {
-                let place = format!("{}, storey {}", own.name, floor.floor);
+                let place = format!("{}, storey {}", building.name, floor.floor);
                 let beyond = match drift > super::table::OUTSIDE_DRIFT {
                     true => {
                         ": outside the model, which keeps strength and geometry of small drifts"
@@ -40,14 +40,14 @@ pub(super) fn residual(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results.filter(complete) else {
         return;
     };
-    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+    for (model, building) in known.model.buildings.iter().zip(&summary.buildings) {
         if !structure_yields(model) {
             continue;
         }
-        for floor in &own.floors {
+        for floor in &building.floors {
             let drift = floor.response.residual_drift.abs();
             tally.add(drift, || {
-                let place = format!("{}, storey {}", own.name, floor.floor);
+                let place = format!("{}, storey {}", building.name, floor.floor);
                 let text = format!("{place}: a drift of {:.2} % remains", 100.0 * drift);
                 (place, text)
             });

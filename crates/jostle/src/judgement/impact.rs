@@ -14,9 +14,9 @@ fn impacts<'a>(known: &Known<'a>) -> Vec<(usize, &'a GapSummary, &'a ImpactSumma
     };
     let gaps = summary.gaps.iter().zip(&known.model.gaps).enumerate();
     let bare = gaps.filter(|(_, (_, gap))| is_bare(gap.law.kind));
-    bare.flat_map(|(index, (own, _))| {
-        let contacts = own.contacts.iter().flat_map(|contact| &contact.impacts);
-        contacts.map(move |impact| (index, own, impact))
+    bare.flat_map(|(index, (gap, _))| {
+        let contacts = gap.contacts.iter().flat_map(|contact| &contact.impacts);
+        contacts.map(move |impact| (index, gap, impact))
     })
     .collect()
 }
@@ -67,7 +67,7 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for (own, gap) in summary.gaps.iter().zip(&known.model.gaps) {
+    for (gap_summary, gap) in summary.gaps.iter().zip(&known.model.gaps) {
         if !is_bare(gap.law.kind) || gap.law.kind == LawKind::Restitution {
             continue;
         }
@@ -75,7 +75,7 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
         let strength = |side: usize| known.stated(side).strength.unwrap_or(STRENGTH);
         let strength = sides.into_iter().flatten().map(strength);
         let strength = strength.fold(f64::INFINITY, f64::min);
-        for contact in &own.contacts {
+        for contact in &gap_summary.contacts {
             let width = match contact.in_plan {
                 Some(plan) => plan.overlap_m,
                 None => {
@@ -91,7 +91,7 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
             }
             let pressure = contact.peak_force_n / (width * SLAB);
             tally.add(pressure / strength, || {
-                let place = own.between.join(" ↔ ");
+                let place = gap_summary.between.join(" ↔ ");
                 let text = format!(
                     "{place}: {:.0} kN press a slab of {:.0} mm along {width:.1} m with {:.0} MPa, above the {:.0} MPa of its concrete: it crushes before",
                     1e-3 * contact.peak_force_n,
@@ -120,8 +120,8 @@ pub(super) fn duration(known: &Known<'_>, tally: &mut Tally<'_>) {
         vec![None; known.model.gaps.len()];
     for (index, gap, impact) in impacts(known) {
         let momentum = known.model.gaps[index].law.kind == LawKind::Restitution;
-        let weaker =
-            strongest[index].is_some_and(|(_, own)| own.peak_force_n >= impact.peak_force_n);
+        let weaker = strongest[index]
+            .is_some_and(|(_, previous)| previous.peak_force_n >= impact.peak_force_n);
         if impact.finished && !momentum && !weaker {
             strongest[index] = Some((gap, impact));
         }
@@ -159,13 +159,13 @@ pub(super) fn force_spread(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some(spread) = &summary.contact_sensitivity else {
         return;
     };
-    for (own, gap) in spread.gaps.iter().zip(&summary.gaps) {
+    for (gap_spread, gap) in spread.gaps.iter().zip(&summary.gaps) {
         if gap.peak_force_n <= 0.0 {
             continue;
         }
-        let (least, most) = (own.peak_force_min_n, own.peak_force_max_n);
+        let (least, most) = (gap_spread.peak_force_min_n, gap_spread.peak_force_max_n);
         tally.add((most - least) / gap.peak_force_n, || {
-            let place = own.between.join(" ↔ ");
+            let place = gap_spread.between.join(" ↔ ");
             let text = format!(
                 "{place}: the peak force lies between {:.0} and {:.0} kN over the range of contact stiffness",
                 1e-3 * least,

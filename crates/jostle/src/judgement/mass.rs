@@ -41,11 +41,11 @@ pub(super) fn beam_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             let Some(axial) = beam.axial_rigidity else {
                 continue;
             };
-            let own = CONCRETE_DENSITY * axial / modulus;
+            let line_mass = CONCRETE_DENSITY * axial / modulus;
             let carried = carried(frame, floor);
-            tally.add(carried / own, || {
+            tally.add(carried / line_mass, || {
                 let text = format!(
-                    "{}: the beams of floor {} carry {carried:.0} kg/m and weigh {own:.0} kg/m themselves: slab, walls and live load seem to be missing",
+                    "{}: the beams of floor {} carry {carried:.0} kg/m and weigh {line_mass:.0} kg/m themselves: slab, walls and live load seem to be missing",
                     quoted(&building.name),
                     floor + 1
                 );
@@ -64,16 +64,16 @@ pub(super) fn column_compression(known: &Known<'_>, tally: &mut Tally<'_>) {
         else {
             continue;
         };
-        let own = &known.system.buildings[index].structure;
-        let Ok(compressions) = compressions(own, STANDARD_GRAVITY) else {
+        let structure = &known.system.buildings[index].structure;
+        let Ok(compressions) = compressions(structure, STANDARD_GRAVITY) else {
             continue;
         };
-        for member in &own.discretization.members {
+        for member in &structure.discretization.members {
             let MemberPlace::Column { line, storey } = member.place else {
                 continue;
             };
             let section = frame.column(storey - 1, line - 1);
-            let Some(axial) = section.and_then(|own| own.axial_rigidity) else {
+            let Some(axial) = section.and_then(|section| section.axial_rigidity) else {
                 continue;
             };
             for compression in &compressions[member.elements.clone()] {
@@ -143,7 +143,7 @@ pub(super) fn struck_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             };
             let whole = floors
                 .get(port.building)
-                .and_then(|own| own.get(floor.checked_sub(1)?));
+                .and_then(|masses| masses.get(floor.checked_sub(1)?));
             let Some(&whole) = whole else { continue };
             tally.add(port.mass / whole, || {
                 let name = &known.system.buildings[port.building].name;

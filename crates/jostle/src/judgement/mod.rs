@@ -88,8 +88,8 @@ impl Default for StatedBuilding {
 
 impl Known<'_> {
     fn stated(&self, building: usize) -> StatedBuilding {
-        let own = self.stated.buildings.get(building);
-        own.cloned().unwrap_or_default()
+        let building = self.stated.buildings.get(building);
+        building.cloned().unwrap_or_default()
     }
 }
 

@@ -18,9 +18,12 @@ const FORMULAS: [(f64, f64); 6] = [
 /// panels. One storey often stands for a whole building, whose height it does not have.
 pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
     let buildings = known.model.buildings.iter().zip(&known.system.buildings);
-    for (index, (building, own)) in buildings.enumerate() {
-        let heights = own.floors.last().map_or(0.0, |roof| roof.height);
-        let Some(mode) = own.lateral_modes().next() else {
+    for (index, (building, building_system)) in buildings.enumerate() {
+        let heights = building_system
+            .floors
+            .last()
+            .map_or(0.0, |roof| roof.height);
+        let Some(mode) = building_system.lateral_modes().next() else {
             continue;
         };
         if building.floors() < 2 || heights <= 0.0 || building.base.isolation.is_some() {

@@ -25,8 +25,8 @@ pub(super) fn rigid_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
         match &building.structure {
             Structure::Frame(frame) => compare(&building.name, frame),
             Structure::Tiers(tiers) => {
-                for own in &tiers.frames {
-                    compare(&building.name, &own.frame);
+                for frame in &tiers.frames {
+                    compare(&building.name, &frame.frame);
                 }
             }
             Structure::Shear(_) | Structure::Given(_) => {}
@@ -39,14 +39,14 @@ fn stability(known: &Known<'_>, tally: &mut Tally<'_>, counts: impl Fn(bool, f64
     let Some((summary, _)) = known.results else {
         return;
     };
-    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
-        for floor in &own.floors {
+    for (model, building) in known.model.buildings.iter().zip(&summary.buildings) {
+        for floor in &building.floors {
             let theta = floor.response.stability_coefficient.unwrap_or(0.0);
             if !counts(model.gravity.p_delta, theta) {
                 continue;
             }
             tally.add(theta, || {
-                let place = format!("{}, storey {}", own.name, floor.floor);
+                let place = format!("{}, storey {}", building.name, floor.floor);
                 let with = match model.gravity.p_delta {
                     true => "",
                     false => ", and P-Delta is left out",

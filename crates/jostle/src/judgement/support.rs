@@ -25,8 +25,9 @@ pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
 pub(super) fn soil_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
     for link in &known.system.links {
         // Those of braces and panels are none of the model's.
-        let own = known.model.links.get(link.link);
-        let Some([Some(index), None] | [None, Some(index)]) = own.map(|own| own.between) else {
+        let found_link = known.model.links.get(link.link);
+        let Some([Some(index), None] | [None, Some(index)]) = found_link.map(|link| link.between)
+        else {
             continue;
         };
         let building = &known.model.buildings[index];
@@ -54,19 +55,19 @@ pub(super) fn bearing_stroke(known: &Known<'_>, tally: &mut Tally<'_>) {
         return;
     };
     for (index, building) in summary.buildings.iter().enumerate() {
-        let Some((own, limit)) = building
+        let Some((isolation, limit)) = building
             .isolation
             .as_ref()
-            .and_then(|own| Some((own, own.limit_m?)))
+            .and_then(|isolation| Some((isolation, isolation.limit_m?)))
         else {
             continue;
         };
         let bounds = summary.isolation_bounds.as_ref();
         let bounds = bounds.and_then(|all| all.buildings.get(index)?.stroke_m);
-        let nominal = own.displacement_peak_m();
-        let stroke = bounds.map_or(nominal, |own| own.envelope);
+        let nominal = isolation.displacement_peak_m();
+        let stroke = bounds.map_or(nominal, |bound| bound.envelope);
         tally.add(stroke / limit, || {
-            let what = match own.in_plan {
+            let what = match isolation.in_plan {
                 Some(_) => "a bearing",
                 None => "the mat",
             };
@@ -91,13 +92,14 @@ pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+    for (model, building) in known.model.buildings.iter().zip(&summary.buildings) {
         let bearings = match &model.structure {
             Structure::Tiers(tiers) => &tiers.bearings[..],
             Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => &[],
         };
         let arm = core(bearings).or_else(|| Some(length(model)? / 6.0));
-        let (Some(isolation), Some(arm), Some(lowest)) = (&own.isolation, arm, own.floors.first())
+        let (Some(isolation), Some(arm), Some(lowest)) =
+            (&building.isolation, arm, building.floors.first())
         else {
             continue;
         };
@@ -106,11 +108,11 @@ pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(ratio, || {
             let text = format!(
                 "{}: an overturning moment of {:.1} MN·m lifts the outermost bearings, which lose their compression at {:.1} MN·m",
-                quoted(&own.name),
+                quoted(&building.name),
                 1e-6 * moment,
                 1e-6 * isolation.weight_n * arm
             );
-            (own.name.clone(), text)
+            (building.name.clone(), text)
         });
     }
 }
@@ -118,8 +120,8 @@ pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
 /// Greatest eccentricity of the weight along x without uplift of a bearing; `None` for bearings that do not stand apart \[m\].
 fn core(bearings: &[PlanPoint]) -> Option<f64> {
     let count = bearings.len() as f64;
-    let middle = bearings.iter().map(|own| own[0]).sum::<f64>() / count;
-    let x = || bearings.iter().map(|own| own[0] - middle);
+    let middle = bearings.iter().map(|bearing| bearing[0]).sum::<f64>() / count;
+    let x = || bearings.iter().map(|bearing| bearing[0] - middle);
     let furthest = x().map(f64::abs).fold(0.0, f64::max);
     (furthest > 0.0).then(|| x().map(|x| x * x).sum::<f64>() / (count * furthest))
 }

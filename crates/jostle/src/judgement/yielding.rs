@@ -12,7 +12,9 @@ const YIELD_DRIFT: f64 = 0.01;
 /// Whether storeys or members of a building can yield, not its base alone.
 #[must_use]
 pub fn structure_yields(building: &Building) -> bool {
-    let yields = |own: &Diagonal| own.place.kind == DiagonalKind::Brace && own.hysteresis.is_some();
+    let yields = |diagonal: &Diagonal| {
+        diagonal.place.kind == DiagonalKind::Brace && diagonal.hysteresis.is_some()
+    };
     match &building.structure {
         _ if building.hinges.is_some() => true,
         Structure::Tiers(tiers) => tiers.may_yield(),
@@ -95,23 +97,27 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for member in summary.buildings.iter().flat_map(|own| &own.members) {
-        for own in &member.acceptance {
-            let Some(last) = own.limits.last() else {
+    for member in summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.members)
+    {
+        for acceptance in &member.acceptance {
+            let Some(last) = acceptance.limits.last() else {
                 continue;
             };
-            tally.add(own.rotation_rad / last.rotation_rad, || {
+            tally.add(acceptance.rotation_rad / last.rotation_rad, || {
                 let text = format!(
                     "{}: a {}rotation of {:.1} mrad exceeds the {:.1} mrad of {} ({})",
                     member.name,
-                    match own.measure {
+                    match acceptance.measure {
                         "plastic" => "plastic ",
                         _ => "",
                     },
-                    1e3 * own.rotation_rad,
+                    1e3 * acceptance.rotation_rad,
                     1e3 * last.rotation_rad,
                     last.level,
-                    own.rule
+                    acceptance.rule
                 );
                 (member.name.clone(), text)
             });
@@ -126,8 +132,8 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
     };
     // Columns that fail in this model bear no more than they can.
     let buildings = summary.buildings.iter();
-    let lasting = buildings.filter(|own| own.shear_failures.is_none());
-    for member in lasting.flat_map(|own| &own.members) {
+    let lasting = buildings.filter(|building| building.shear_failures.is_none());
+    for member in lasting.flat_map(|lasting| &lasting.members) {
         let Some(ratio) = &member.ratio else { continue };
         let (Some(times), Some(place)) = (ratio.shear, &ratio.shear_at) else {
             continue;
@@ -150,12 +156,16 @@ fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str)) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
-        if structure_yields(model) || model.base.isolation.is_some() || own.mass_kg <= 0.0 {
+    for (model, building) in known.model.buildings.iter().zip(&summary.buildings) {
+        if structure_yields(model) || model.base.isolation.is_some() || building.mass_kg <= 0.0 {
             continue;
         }
-        let shear = own.response.base_shear_peak_n / (STANDARD_GRAVITY * own.mass_kg);
-        add(own.response.drift_peak / YIELD_DRIFT, shear, &own.name);
+        let shear = building.response.base_shear_peak_n / (STANDARD_GRAVITY * building.mass_kg);
+        add(
+            building.response.drift_peak / YIELD_DRIFT,
+            shear,
+            &building.name,
+        );
     }
 }
 
@@ -191,11 +201,14 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+    for (model, building) in known.model.buildings.iter().zip(&summary.buildings) {
         if !model.weight_is_in_axial_forces() {
             continue;
         }
-        let columns = own.members.iter().filter(|m| m.name.contains(".column."));
+        let columns = building
+            .members
+            .iter()
+            .filter(|m| m.name.contains(".column."));
         for (column, end) in columns.flat_map(|m| m.ends.iter().map(move |end| (m, end))) {
             let (tension, compression) = (end.axial_max_n, -end.axial_min_n);
             tally.add(tension / compression.max(1.0), || {
@@ -217,7 +230,7 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
     };
     for (index, model) in known.model.buildings.iter().enumerate() {
         let stated = known.stated(index);
-        let (Structure::Frame(frame), Some(modulus), Some(strength), Some(own)) = (
+        let (Structure::Frame(frame), Some(modulus), Some(strength), Some(building)) = (
             &model.structure,
             stated.modulus,
             stated.strength,
@@ -225,7 +238,7 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
         ) else {
             continue;
         };
-        for member in &own.members {
+        for member in &building.members {
             let Some(([storey, line], made_for)) =
                 made_for(&member.name, &stated.hinge_compression)
             else {
@@ -233,7 +246,7 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
             };
             let Some(axial) = frame
                 .column(storey, line)
-                .and_then(|own| own.axial_rigidity)
+                .and_then(|column| column.axial_rigidity)
             else {
                 continue;
             };

@@ -34,14 +34,14 @@ impl DiagonalRuns {
                 (entry.0 as usize, entry.1 as usize)
                     == (row as usize + step, column as usize + step)
             };
-            let own = rest.iter().enumerate().take(LANES).take_while(next).count();
-            let (own, after) = rest.split_at(own);
+            let length = rest.iter().enumerate().take(LANES).take_while(next).count();
+            let (run, after) = rest.split_at(length);
             rest = after;
             // At the end of a vector a chunk begins earlier, padded with zeros.
             let early = (row as usize + LANES).saturating_sub(order) as u32;
             if early > column {
                 runs.loose.push((row, column, place));
-                let others = own.iter().skip(1);
+                let others = run.iter().skip(1);
                 runs.loose.extend(others);
                 continue;
             }
@@ -51,7 +51,7 @@ impl DiagonalRuns {
             });
             let places = (0..LANES).map(|lane| {
                 let entry = lane.checked_sub(early as usize);
-                let entry = entry.and_then(|entry| own.get(entry));
+                let entry = entry.and_then(|entry| run.get(entry));
                 entry.map_or(NOWHERE, |entry| entry.2)
             });
             runs.places.extend(places);

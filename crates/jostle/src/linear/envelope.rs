@@ -110,9 +110,9 @@ impl Envelope {
                 for column in first..row {
                     let from = first.max(self.columns[column].start);
                     let above = &self.row(column)[from - self.columns[column].start..];
-                    let (before, own) = packed[from - first..].split_at_mut(column - from);
+                    let (before, current) = packed[from - first..].split_at_mut(column - from);
                     let sums = sums_of_products(before, above);
-                    for (entry, sum) in own[0].iter_mut().zip(sums) {
+                    for (entry, sum) in current[0].iter_mut().zip(sums) {
                         *entry -= sum;
                     }
                     operations += (SIDE_BY_SIDE * (column - from)) as u64;
@@ -136,7 +136,7 @@ impl Envelope {
     fn rows_alike(&self, row: usize) -> usize {
         let first = self.columns[row].start;
         match self.columns.get(row..row + SIDE_BY_SIDE) {
-            Some(rows) if rows.iter().all(|own| own.start == first) => SIDE_BY_SIDE,
+            Some(rows) if rows.iter().all(|row| row.start == first) => SIDE_BY_SIDE,
             _ => 1,
         }
     }
@@ -280,9 +280,9 @@ impl PivotedEnvelope {
             // The last of the greatest.
             let (mut best, mut greatest) = (pivot, size(pivot));
             for row in pivot + 1..below {
-                let own = size(row);
-                if own >= greatest || own.is_nan() {
-                    (best, greatest) = (row, own);
+                let size = size(row);
+                if size >= greatest || size.is_nan() {
+                    (best, greatest) = (row, size);
                 }
             }
             if best != pivot {
@@ -294,11 +294,11 @@ impl PivotedEnvelope {
                 self.last.swap(pivot, best);
                 side.swap(pivot, best);
             }
-            let own = self.place(pivot, pivot);
-            if self.values[own] == 0.0 {
+            let place = self.place(pivot, pivot);
+            if self.values[place] == 0.0 {
                 return None;
             }
-            let (divisor, reached) = (self.values[own], self.last[pivot]);
+            let (divisor, reached) = (self.values[place], self.last[pivot]);
             let right = reached - pivot;
             for row in pivot + 1..below {
                 let at = self.place(row, pivot);
@@ -312,7 +312,7 @@ impl PivotedEnvelope {
                 }
                 self.last[row] = self.last[row].max(reached);
                 let (above, rest) = self.values.split_at_mut(at);
-                let above = &above[own + 1..=own + right];
+                let above = &above[place + 1..=place + right];
                 for (value, above) in rest[1..=right].iter_mut().zip(above) {
                     *value -= share * above;
                 }
@@ -321,11 +321,11 @@ impl PivotedEnvelope {
             }
         }
         for row in (0..n).rev() {
-            let own = self.place(row, row);
+            let place = self.place(row, row);
             let right = self.last[row] - row;
-            let known = self.values[own + 1..=own + right].iter();
+            let known = self.values[place + 1..=place + right].iter();
             let known: f64 = known.zip(&side[row + 1..]).map(|(a, x)| a * x).sum();
-            side[row] = (side[row] - known) / self.values[own];
+            side[row] = (side[row] - known) / self.values[place];
             operations += right as u64 + 1;
         }
         Some(operations)

@@ -179,7 +179,7 @@ impl Row {
         }
         let gives = self.entries().iter().map(|(dof, c)| c * c / mass[*dof]);
         // An empty sum would be −0.
-        1.0 / gives.fold(0.0, |sum, own| sum + own)
+        1.0 / gives.fold(0.0, |sum, give| sum + give)
     }
 
     /// Adds a term.

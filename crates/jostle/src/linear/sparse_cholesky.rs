@@ -122,8 +122,8 @@ impl Pattern {
             let mut pivot = std::mem::take(&mut row_of_l[k]);
             for &column in met.iter().rev() {
                 let value = std::mem::take(&mut row_of_l[column]);
-                let own = self.factor_starts[column]..ends[column];
-                for (row, entry) in factor.rows[own.clone()].iter().zip(&factor.values[own]) {
+                let range = self.factor_starts[column]..ends[column];
+                for (row, entry) in factor.rows[range.clone()].iter().zip(&factor.values[range]) {
                     row_of_l[*row] -= entry * value;
                 }
                 let scaled = value / factor.diagonal[column];
@@ -149,8 +149,8 @@ impl Pattern {
             x[*place] = *value;
         }
         let column = |k: usize| {
-            let own = self.factor_starts[k]..self.factor_starts[k + 1];
-            factor.rows[own.clone()].iter().zip(&factor.values[own])
+            let range = self.factor_starts[k]..self.factor_starts[k + 1];
+            factor.rows[range.clone()].iter().zip(&factor.values[range])
         };
         for k in 0..order {
             let value = x[k];

@@ -62,7 +62,7 @@ impl Base {
             && self.horizontal_stiffness.is_none()
             && self.vertical_stiffness.is_none()
             && self.torsional_stiffness.is_none()
-            && self.across.is_none_or(|own| own.is_rigid())
+            && self.across.is_none_or(|base| base.is_rigid())
             && self.isolation.is_none()
             && self.foundation.is_none()
     }
@@ -83,8 +83,8 @@ impl Base {
     /// building stands on the ground \[kg\].
     #[must_use]
     pub fn carrying_mass(&self) -> Option<f64> {
-        let carrier = self.isolation.map(|own| own.mat_mass);
-        let carrier = carrier.or(self.foundation.map(|own| own.mass));
+        let carrier = self.isolation.map(|isolation| isolation.mat_mass);
+        let carrier = carrier.or(self.foundation.map(|foundation| foundation.mass));
         carrier.or((!self.is_fixed()).then_some(self.mass))
     }
 
@@ -93,13 +93,16 @@ impl Base {
     pub fn rocks_in_plan(&self) -> bool {
         self.in_plan()
             .iter()
-            .all(|own| own.rotational_stiffness.is_some())
+            .all(|plan| plan.rotational_stiffness.is_some())
     }
 
     /// Whether it can lift off the ground.
     #[must_use]
     pub fn lifts(&self) -> bool {
-        self.uplift || self.foundation.is_some_and(|own| own.uplift.is_some())
+        self.uplift
+            || self
+                .foundation
+                .is_some_and(|foundation| foundation.uplift.is_some())
     }
 }
 

@@ -229,13 +229,15 @@ impl RuleCapacity {
     #[must_use]
     pub fn shear_ratio(&self, compression: f64, shears: [f64; 2], ductility: f64) -> f64 {
         let ratio = |capacity: &Option<ShearCapacity>, shear: f64| {
-            let own = capacity.as_ref();
-            own.map_or(0.0, |own| shear.abs() / own.at(compression, ductility))
+            let capacity = capacity.as_ref();
+            capacity.map_or(0.0, |capacity| {
+                shear.abs() / capacity.at(compression, ductility)
+            })
         };
-        let own = ratio(&self.shear, shears[0]);
+        let along = ratio(&self.shear, shears[0]);
         match &self.across {
-            Some(across) => libm::hypot(own, ratio(&across.shear, shears[1])),
-            None => own,
+            Some(across) => libm::hypot(along, ratio(&across.shear, shears[1])),
+            None => along,
         }
     }
 }

@@ -59,7 +59,10 @@ impl PanelDamage {
     /// Damage state under a drift, 0 to 4.
     #[must_use]
     pub fn state(&self, drift: f64) -> usize {
-        self.drifts.iter().filter(|own| drift >= **own).count()
+        self.drifts
+            .iter()
+            .filter(|candidate| drift >= **candidate)
+            .count()
     }
 }
 
@@ -172,7 +175,7 @@ impl DiagonalPlace {
     #[must_use]
     pub fn crossings(self) -> Option<[[usize; 2]; 2]> {
         let line = self.line?;
-        Some(self.lines().map(|own| line.crossing(own)))
+        Some(self.lines().map(|other| line.crossing(other)))
     }
 
     /// Column lines of its lower and of its upper end, from 0; in a space frame lines that cross its own.
@@ -209,7 +212,7 @@ impl std::fmt::Display for DiagonalPlace {
         let Some(line) = self.line else {
             return write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay);
         };
-        let [x, y] = line.crossing(self.bay - 1).map(|own| own + 1);
+        let [x, y] = line.crossing(self.bay - 1).map(|crossing| crossing + 1);
         let along = line.along.name();
         write!(formatter, "{kind}_{along}.{}.{x}.{y}.{rise}", self.storey)
     }

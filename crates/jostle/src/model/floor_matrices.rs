@@ -86,7 +86,7 @@ impl GivenInPlan {
     pub fn tiers(&self) -> Result<Tiers, String> {
         let order = self.order();
         let mut place_of = vec![None; order];
-        for (place, dof) in self.floors.iter().flat_map(|own| own.dofs).enumerate() {
+        for (place, dof) in self.floors.iter().flat_map(|floor| floor.dofs).enumerate() {
             if dof >= order {
                 return Err(format!(
                     "have {order} rows, and floor {} has displacement {}",
@@ -106,7 +106,7 @@ impl GivenInPlan {
         let floors = self.floor_masses(&place_of)?;
         let pairs = self.floors.iter().zip(&floors);
         let motions: Vec<[[f64; 3]; 3]> = pairs
-            .map(|(own, tier)| motion_of(own.at, tier.centre, self.direction()))
+            .map(|(floor, tier)| motion_of(floor.at, tier.centre, self.direction()))
             .collect();
         let stiffness = about_centres(&self.condensed(&place_of)?, &motions);
         let damping = match self.damping.is_empty() {
@@ -114,7 +114,7 @@ impl GivenInPlan {
             false => about_centres(&self.damping_of_floors(&place_of)?, &motions),
         };
         let mut below = 0.0;
-        let heights = self.floors.iter().map(|own| own.height);
+        let heights = self.floors.iter().map(|floor| floor.height);
         Ok(Tiers {
             floors,
             storey_heights: heights
@@ -141,8 +141,8 @@ impl GivenInPlan {
     fn floor_masses(&self, place_of: &[Option<usize>]) -> Result<Vec<Tier>, String> {
         let mut blocks = vec![[[0.0; 3]; 3]; self.floors.len()];
         let diagonal = |dof: usize| {
-            let own = self.mass.iter().filter(|e| (e.0, e.1) == (dof, dof));
-            own.map(|entry| entry.2).sum::<f64>()
+            let mass = self.mass.iter().filter(|e| (e.0, e.1) == (dof, dof));
+            mass.map(|entry| entry.2).sum::<f64>()
         };
         let greatest = self.mass.iter().fold(0.0_f64, |most, e| most.max(e.2));
         for &(row, column, value) in &self.mass {
@@ -174,8 +174,10 @@ impl GivenInPlan {
             }
         }
         let all = self.floors.iter().zip(&blocks).enumerate();
-        all.map(|(floor, (own, block))| tier_of(floor, own, block, self.direction()))
-            .collect()
+        all.map(|(floor, (given_floor, block))| {
+            tier_of(floor, given_floor, block, self.direction())
+        })
+        .collect()
     }
 
     /// K over the displacements of floors: K_ff − K_fb K_bb⁻¹ K_bf, all rows.
@@ -276,12 +278,12 @@ fn motion_of(at: PlanPoint, centre: PlanPoint, [c, s]: PlanPoint) -> [[f64; 3]; 
 /// Mass and centre of a floor, from 0.
 fn tier_of(
     floor: usize,
-    own: &GivenFloor,
+    given_floor: &GivenFloor,
     block: &[[f64; 3]; 3],
     [c, s]: PlanPoint,
 ) -> Result<Tier, String> {
     let [[along, coupled, _], [_, across, _], [_, _, turning]] = *block;
-    let number = |component: usize| own.dofs[component] + 1;
+    let number = |component: usize| given_floor.dofs[component] + 1;
     let floor = floor + 1;
     for (component, mass) in [along, across, turning].into_iter().enumerate() {
         if mass <= 0.0 || !mass.is_finite() {
@@ -320,10 +322,10 @@ fn tier_of(
         mass,
         polar_mass,
         centre: [
-            own.at[0] + c * arm[0] - s * arm[1],
-            own.at[1] + s * arm[0] + c * arm[1],
+            given_floor.at[0] + c * arm[0] - s * arm[1],
+            given_floor.at[1] + s * arm[0] + c * arm[1],
         ],
-        plan: own.plan.clone(),
+        plan: given_floor.plan.clone(),
     })
 }
 
@@ -348,8 +350,8 @@ impl FloorMatrices {
     /// The first displacement of a floor, by its place among those of all floors, that can move without resistance.
     pub(crate) fn loose(&self) -> Option<usize> {
         let entries = self.stiffness.iter().enumerate().flat_map(|(row, values)| {
-            let own = values.iter().enumerate();
-            own.map(move |(column, value)| {
+            let columns = values.iter().enumerate();
+            columns.map(move |(column, value)| {
                 // What only rounding holds is loose.
                 let kept = if row == column { 1.0 - HELD } else { 1.0 };
                 ((row, column), kept * value)

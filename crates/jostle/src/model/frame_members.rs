@@ -66,7 +66,7 @@ impl Frame {
     #[must_use]
     pub fn column(&self, storey: usize, line: usize) -> Option<&Section> {
         match self.own_columns.get(&[storey, line]) {
-            Some(own) => own.as_ref(),
+            Some(own_column) => own_column.as_ref(),
             None => self.columns.get(storey).filter(|_| line < self.lines()),
         }
     }
@@ -75,7 +75,7 @@ impl Frame {
     #[must_use]
     pub fn beam(&self, floor: usize, bay: usize) -> Option<&Section> {
         match self.own_beams.get(&[floor, bay]) {
-            Some(own) => own.as_ref(),
+            Some(own_beam) => own_beam.as_ref(),
             None => self.beams.get(floor).filter(|_| bay < self.spans.len()),
         }
     }
@@ -95,8 +95,8 @@ impl Frame {
 
     /// Sections of columns, to change them: those of the storeys, then those that differ.
     pub fn column_sections_mut(&mut self) -> impl Iterator<Item = &mut Section> {
-        let own = self.own_columns.values_mut().flatten();
-        self.columns.iter_mut().chain(own)
+        let own_columns = self.own_columns.values_mut().flatten();
+        self.columns.iter_mut().chain(own_columns)
     }
 
     /// Whether a floor, counted from 1, has a joint at a column line, counted from 0; whether a column stands there, for floor 0.

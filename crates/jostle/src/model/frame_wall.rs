@@ -75,8 +75,8 @@ impl FrameWall {
     #[must_use]
     pub fn hinge_at(&self, storey: usize, at_head: bool) -> Option<Hysteresis> {
         let mut all = self.hinges.iter();
-        let own = all.find(|own| own.storey == storey && own.at_head == at_head)?;
-        Some(own.hysteresis)
+        let hinge = all.find(|hinge| hinge.storey == storey && hinge.at_head == at_head)?;
+        Some(hinge.hysteresis)
     }
 }
 
@@ -103,8 +103,8 @@ impl Frame {
     /// The wall in a storey at a column line, both counted from 0.
     #[must_use]
     pub fn wall(&self, [storey, line]: FramePlace) -> Option<&FrameWall> {
-        let stands = |own: &&FrameWall| {
-            own.line == line + 1 && (own.storeys[0]..=own.storeys[1]).contains(&(storey + 1))
+        let stands = |wall: &&FrameWall| {
+            wall.line == line + 1 && (wall.storeys[0]..=wall.storeys[1]).contains(&(storey + 1))
         };
         self.walls.iter().find(stands)
     }
@@ -113,7 +113,7 @@ impl Frame {
     #[must_use]
     pub fn coupling_beam(&self, [floor, bay]: FramePlace) -> Option<&CouplingBeam> {
         let mut all = self.coupling_beams.iter();
-        all.find(|own| own.floor == floor + 1 && own.bay == bay + 1)
+        all.find(|coupling_beam| coupling_beam.floor == floor + 1 && coupling_beam.bay == bay + 1)
     }
 
     /// Section of the column in a storey at a line, both counted from 0; `None` where there is none, or a wall.
@@ -183,12 +183,16 @@ impl Frame {
         [storey, line]: FramePlace,
     ) -> impl Iterator<Item = f64> + '_ {
         let height = self.storey_heights[storey];
-        let own = move |own: &&Diagonal| own.place.storey == storey + 1;
-        let ends = self.diagonals.iter().filter(own).flat_map(move |own| {
-            let [lower, upper] = own.place.lines();
-            let [above, below] = own.offsets;
-            [(lower, above), (upper, height - below)]
-        });
+        let in_storey = move |diagonal: &&Diagonal| diagonal.place.storey == storey + 1;
+        let ends = self
+            .diagonals
+            .iter()
+            .filter(in_storey)
+            .flat_map(move |diagonal| {
+                let [lower, upper] = diagonal.place.lines();
+                let [above, below] = diagonal.offsets;
+                [(lower, above), (upper, height - below)]
+            });
         let inside = move |(at, above): (usize, f64)| {
             (at == line && above > 0.0 && above < height).then_some(above)
         };
@@ -204,14 +208,18 @@ impl Frame {
     /// Whether walls or coupling beams yield.
     #[must_use]
     pub fn walls_yield(&self) -> bool {
-        let yields = |own: &FrameWall| !own.hinges.is_empty() || own.shear.is_some();
-        self.walls.iter().any(yields) || self.coupling_beams.iter().any(|own| own.shear.is_some())
+        let yields = |wall: &FrameWall| !wall.hinges.is_empty() || wall.shear.is_some();
+        self.walls.iter().any(yields)
+            || self
+                .coupling_beams
+                .iter()
+                .any(|coupling_beam| coupling_beam.shear.is_some())
     }
 
     /// Whether braces, struts, walls or coupling beams yield or lift off.
     #[must_use]
     pub fn has_yielding_parts(&self) -> bool {
         let mut diagonals = self.diagonals.iter();
-        diagonals.any(|own| own.hysteresis.is_some()) || self.walls_yield()
+        diagonals.any(|diagonal| diagonal.hysteresis.is_some()) || self.walls_yield()
     }
 }

@@ -109,8 +109,8 @@ impl Gap {
     /// Sets the smallest width \[m\]; all others shift by the same amount.
     pub fn set_width(&mut self, width: f64) {
         let least = self.width();
-        for own in &mut self.widths {
-            *own = width + (*own - least);
+        for gap_width in &mut self.widths {
+            *gap_width = width + (*gap_width - least);
         }
     }
 }

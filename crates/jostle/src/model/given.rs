@@ -49,8 +49,8 @@ impl Given {
     #[must_use]
     pub fn condensed(mass: Vec<f64>, stiffness: &[Vec<f64>], storey_heights: Vec<f64>) -> Self {
         let lower = stiffness.iter().enumerate().flat_map(|(row, values)| {
-            let own = values.iter().take(row + 1).enumerate();
-            own.map(move |(column, value)| (row, column, *value))
+            let columns = values.iter().take(row + 1).enumerate();
+            columns.map(move |(column, value)| (row, column, *value))
         });
         let floors = mass.len();
         let heights = storey_heights.iter().scan(0.0, |height, storey| {

@@ -482,8 +482,9 @@ impl Isolator {
     /// The same from a cycle of the spring: its secant, and the work W of a cycle by ζ = W/(2πKD²).
     fn equivalent_of_a_cycle(&self, weight: f64, amplitude: f64) -> Option<[f64; 2]> {
         let (_, spring) = self.springs(weight);
-        let spring = spring
-            .filter(|own| amplitude > own.backbone().side(Side::Positive).yielding.deformation)?;
+        let spring = spring.filter(|spring| {
+            amplitude > spring.backbone().side(Side::Positive).yielding.deformation
+        })?;
         let (mut memory, mut work) = (HysteresisMemory::default(), 0.0);
         for to in [amplitude, -amplitude, amplitude, -amplitude, amplitude] {
             let response = spring.respond(&memory, to);

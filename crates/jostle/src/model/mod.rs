@@ -196,7 +196,10 @@ impl Building {
         self.hinges.is_some()
             || self.base.rotational_hinge.is_some()
             || self.base.horizontal_hinge.is_some()
-            || self.base.isolation.is_some_and(|own| !own.is_linear())
+            || self
+                .base
+                .isolation
+                .is_some_and(|isolation| !isolation.is_linear())
             || self.base.lifts()
             || matches!(&self.structure, Structure::Tiers(own) if own.may_yield())
             || matches!(&self.structure, Structure::Frame(own) if own.has_yielding_parts())
@@ -792,7 +795,7 @@ impl Building {
         let Structure::Frame(frame) = &self.structure else {
             return false;
         };
-        let mut kinds = frame.diagonals.iter().map(|own| own.place.kind);
+        let mut kinds = frame.diagonals.iter().map(|diagonal| diagonal.place.kind);
         kinds.any(|kind| kind == DiagonalKind::Infill)
     }
 

@@ -59,16 +59,16 @@ impl MomentSurface {
         let (first, second) = (&self.lines[before], &self.lines[(before + 1) % count]);
         // The unit vector between both is the sum of these shares of their directions.
         let from = turned - before as f64 * angle;
-        let share = |own: f64| libm::sin(own) / libm::sin(angle);
+        let share = |value: f64| libm::sin(value) / libm::sin(angle);
         let shares = [share(angle - from), share(from)];
         let second = second.points();
         let between = |point: usize| {
-            let own = first.points()[point][1];
+            let one = first.points()[point][1];
             if from == 0.0 {
-                return own;
+                return one;
             }
             let other = second.get(point).map_or(0.0, |[_, value]| *value);
-            (shares[0] / own + shares[1] / other).recip()
+            (shares[0] / one + shares[1] / other).recip()
         };
         first.ratio(compression, self.length(moments), between)
     }

@@ -30,7 +30,7 @@ impl Tiers {
     pub fn carrier(&self, base: &Base) -> Option<LumpedFloor> {
         let plan = self.lowest_plan();
         let plan = match base.foundation {
-            Some(own) => own.corners(PlanArea::new(&plan).centroid),
+            Some(foundation) => foundation.corners(PlanArea::new(&plan).centroid),
             None => plan,
         };
         Some(self.plate(base.carrying_mass()?, plan))
@@ -72,12 +72,12 @@ impl Tiers {
 
 /// Principal axes of a plan, as long as its radii of gyration along them \[m\].
 fn principal_arms(plan: &[PlanPoint], area: &PlanArea) -> [PlanPoint; 2] {
-    let own: Vec<PlanPoint> = plan
+    let points: Vec<PlanPoint> = plan
         .iter()
         .map(|p| [p[0] - area.centroid[0], p[1] - area.centroid[1]])
         .collect();
-    let next = own.iter().cycle().skip(1);
-    let product: f64 = own
+    let next = points.iter().cycle().skip(1);
+    let product: f64 = points
         .iter()
         .zip(next)
         .map(|(a, b)| {
@@ -94,7 +94,7 @@ fn principal_arms(plan: &[PlanPoint], area: &PlanArea) -> [PlanPoint; 2] {
         [libm::cos(angle), libm::sin(angle)]
     } else {
         // A square, or another plan that is the same about every axis: along its first edge.
-        let [a, b] = [own[0], own[1 % own.len()]];
+        let [a, b] = [points[0], points[1 % points.len()]];
         let edge = [b[0] - a[0], b[1] - a[1]];
         let length = libm::hypot(edge[0], edge[1]);
         edge.map(|value| value / length)
@@ -130,7 +130,7 @@ mod tests {
             [5.0, 9.0],
             [0.0, 9.0],
         ];
-        let own = tiers(plan);
+        let tiers = tiers(plan);
         let parts = [
             (48.0, [6.0, 2.0], [12.0, 4.0]),
             (25.0, [2.5, 6.5], [5.0, 5.0]),
@@ -151,13 +151,13 @@ mod tests {
             };
             parts.iter().map(of).sum::<f64>() / area
         };
-        let points = own.bearing_points();
+        let points = tiers.bearing_points();
         for (i, j) in [(0, 0), (0, 1), (1, 1)] {
             let of = |at: &PlanPoint| 0.25 * (at[i] - centre[i]) * (at[j] - centre[j]);
             let found: f64 = points.iter().map(of).sum();
             assert!((found - expected(i, j)).abs() < 1e-12, "{i} {j}: {found}");
         }
-        let mat = own.mat(2e5).tier;
+        let mat = tiers.mat(2e5).tier;
         let polar = 2e5 * (expected(0, 0) + expected(1, 1));
         assert!((mat.polar_mass / polar - 1.0).abs() < 1e-12);
         assert!((mat.centre[0] - centre[0]).abs() < 1e-12);
@@ -171,8 +171,8 @@ mod tests {
         let turned = |p: &PlanPoint| [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]];
         let straight = tiers(corners.to_vec()).bearing_points();
         let skew = tiers(corners.iter().map(turned).collect()).bearing_points();
-        for (own, other) in straight.iter().map(turned).zip(&skew) {
-            assert!((own[0] - other[0]).abs() < 1e-12 && (own[1] - other[1]).abs() < 1e-12);
+        for (one, other) in straight.iter().map(turned).zip(&skew) {
+            assert!((one[0] - other[0]).abs() < 1e-12 && (one[1] - other[1]).abs() < 1e-12);
         }
     }
 }

@@ -66,12 +66,12 @@ impl PlanFoundationSprings {
     /// off.
     #[must_use]
     pub fn base(&self, foundation: &Foundation) -> Base {
-        let or_held = |stiffness: f64| Some(stiffness).filter(|own| *own > 0.0);
-        let [along, across] = [&self.along, &self.across].map(|own| AcrossBase {
-            horizontal_stiffness: or_held(own.sway_stiffness),
-            horizontal_damping: own.sway_damping,
-            rotational_stiffness: Some(own.rocking_stiffness),
-            rotational_damping: own.rocking_damping,
+        let or_held = |stiffness: f64| Some(stiffness).filter(|stiffness| *stiffness > 0.0);
+        let [along, across] = [&self.along, &self.across].map(|springs| AcrossBase {
+            horizontal_stiffness: or_held(springs.sway_stiffness),
+            horizontal_damping: springs.sway_damping,
+            rotational_stiffness: Some(springs.rocking_stiffness),
+            rotational_damping: springs.rocking_damping,
         });
         let [torsional_stiffness, torsional_damping] = self.torsion;
         Base {
@@ -102,10 +102,10 @@ impl Foundation {
             length: self.width,
             width: self.length,
             rotary_inertia: self.mass * self.width * self.width / 12.0,
-            uplift: self.uplift.map(|own| Uplift {
-                springs: own.springs_across.unwrap_or(own.springs),
-                springs_across: Some(own.springs),
-                ..own
+            uplift: self.uplift.map(|uplift| Uplift {
+                springs: uplift.springs_across.unwrap_or(uplift.springs),
+                springs_across: Some(uplift.springs),
+                ..uplift
             }),
             ..*self
         }

@@ -123,7 +123,10 @@ impl PlanFrame {
     /// Whether columns have lumped masses between floors.
     #[must_use]
     pub fn has_masses_between_floors(&self) -> bool {
-        let heavy = self.frame.all_columns().any(|(_, own)| own.line_mass > 0.0);
+        let heavy = self
+            .frame
+            .all_columns()
+            .any(|(_, candidate)| candidate.line_mass > 0.0);
         heavy && self.frame.column_segments > 1
     }
 
@@ -212,11 +215,11 @@ impl Tiers {
         for (index, frame) in self.frames.iter().enumerate() {
             let doubled = |line: usize| {
                 let mut columns = shared.iter();
-                columns.any(|own| own.lines[1] == [index, line])
+                columns.any(|column| column.lines[1] == [index, line])
             };
             let crossed = |line: usize| {
                 let mut columns = shared.iter();
-                columns.any(|own| own.lines.contains(&[index, line]))
+                columns.any(|column| column.lines.contains(&[index, line]))
             };
             frame.add_masses(&mut masses, doubled, crossed);
         }
@@ -232,7 +235,7 @@ impl Tiers {
             .map(|(index, frame)| {
                 let lines = (0..frame.column_lines()).filter(|line| {
                     let mut columns = shared.iter();
-                    !columns.any(|own| own.lines[1] == [index, *line])
+                    !columns.any(|column| column.lines[1] == [index, *line])
                 });
                 let k = frame.frame.column_segments as f64;
                 let storeys = frame.frame.storey_heights.iter().enumerate();
@@ -242,7 +245,7 @@ impl Tiers {
                         Some((frame.frame.column(storey, line)?, height))
                     });
                     columns
-                        .map(|(own, height)| own.line_mass * height * (k - 1.0) / k)
+                        .map(|(section, height)| section.line_mass * height * (k - 1.0) / k)
                         .sum()
                 };
                 if frame.frame.is_regular() {
@@ -343,9 +346,9 @@ impl PlanFrame {
                         1.0
                     };
                     let along = lines[bay] + cut as f64 / segments as f64 * span;
-                    let own = ends * mass / segments as f64;
-                    if own > 0.0 {
-                        levels[above].0[BOTH_WAYS].push((own, self.point_at(along)));
+                    let point_mass = ends * mass / segments as f64;
+                    if point_mass > 0.0 {
+                        levels[above].0[BOTH_WAYS].push((point_mass, self.point_at(along)));
                     }
                 }
             }

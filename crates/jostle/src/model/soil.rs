@@ -229,12 +229,12 @@ impl Model {
     /// Which dimension is missing.
     pub(crate) fn between_foundations(&self, left: usize) -> Result<f64, String> {
         let pair = [left, left + 1].map(|index| &self.buildings[index]);
-        let own = self
+        let gaps = self
             .gaps
             .iter()
             .filter(|gap| gap.between == [Some(left), Some(left + 1)] && !gap.widths.is_empty());
         let [a, b] = pair.map(|building| &building.name[..]);
-        let width = own.map(Gap::width).reduce(f64::min).ok_or_else(|| {
+        let width = gaps.map(Gap::width).reduce(f64::min).ok_or_else(|| {
             format!("how far apart the foundations of \"{a}\" and \"{b}\" are is not known: add a [[gap]] between them")
         })?;
         let mut distance = width;
@@ -297,7 +297,7 @@ mod tests {
                 embedment: 1e-14,
                 ..surface
             };
-            let [a, b] = [surface, scratched].map(|own| SOIL.springs(&own, 0.5));
+            let [a, b] = [surface, scratched].map(|foundation| SOIL.springs(&foundation, 0.5));
             assert!((a.rocking_damping / b.rocking_damping - 1.0).abs() < 1e-9);
             assert!((a.rocking_stiffness / b.rocking_stiffness - 1.0).abs() < 1e-9);
             assert!((a.sway_damping / b.sway_damping - 1.0).abs() < 1e-9);

@@ -255,8 +255,8 @@ impl SpaceSection {
     #[must_use]
     pub fn beam(size: [f64; 2], modulus: f64, poisson_ratio: f64, shears: bool) -> Option<Self> {
         let [width, depth] = size;
-        let own = Self::rectangle([depth, width], modulus, poisson_ratio, shears)?;
-        Some(Self { size, ..own })
+        let rectangle = Self::rectangle([depth, width], modulus, poisson_ratio, shears)?;
+        Some(Self { size, ..rectangle })
     }
 }
 
@@ -267,17 +267,17 @@ impl SpaceFrame {
         let mut diagonals = self.diagonals.iter();
         !self.fibres.is_empty()
             || self.members.iter().any(SpaceMember::may_yield)
-            || diagonals.any(|own| own.hysteresis.is_some())
+            || diagonals.any(|diagonal| diagonal.hysteresis.is_some())
     }
 
     /// Whether a member ends at a crossing of lines at a floor, counted from 1; whether a column stands there, for floor 0.
     #[must_use]
     pub fn has_joint(&self, floor: usize, crossing: [usize; 2]) -> bool {
-        let ends = |own: &SpaceMember| {
-            let level = own.place.storey() + 1;
-            let is_column = matches!(own.place, SpacePlace::Column { .. });
+        let ends = |member: &SpaceMember| {
+            let level = member.place.storey() + 1;
+            let is_column = matches!(member.place, SpacePlace::Column { .. });
             let reaches = level == floor || (is_column && level == floor + 1);
-            reaches && own.place.crossings().contains(&crossing)
+            reaches && member.place.crossings().contains(&crossing)
         };
         self.members.iter().any(ends)
     }

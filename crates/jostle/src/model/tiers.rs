@@ -100,13 +100,13 @@ impl PlanArea {
     pub fn new(corners: &[PlanPoint]) -> Self {
         // Relative to the first corner, so that distant sites lose no digits.
         let origin = corners.first().copied().unwrap_or_default();
-        let own: Vec<PlanPoint> = corners
+        let points: Vec<PlanPoint> = corners
             .iter()
             .map(|p| [p[0] - origin[0], p[1] - origin[1]])
             .collect();
-        let next = own.iter().cycle().skip(1);
+        let next = points.iter().cycle().skip(1);
         let (mut area, mut first, mut second) = (0.0, [0.0; 2], [0.0; 2]);
-        for (a, b) in own.iter().zip(next) {
+        for (a, b) in points.iter().zip(next) {
             let w = a[0] * b[1] - b[0] * a[1];
             area += 0.5 * w;
             for k in 0..2 {
@@ -176,8 +176,11 @@ impl Tiers {
     #[must_use]
     pub fn initial_storey(&self, storey: usize) -> Option<TierStorey> {
         let elastic = self.storeys.get(storey);
-        let own = self.yielding.iter().filter(|own| own.storey == storey);
-        let mut elements: Vec<PlanElement> = own
+        let yielding = self
+            .yielding
+            .iter()
+            .filter(|yielding| yielding.storey == storey);
+        let mut elements: Vec<PlanElement> = yielding
             .map(|spring| {
                 let mut stiffness = [0.0; 2];
                 stiffness[spring.axis.index()] = spring.hysteresis.initial_tangent();
@@ -200,8 +203,14 @@ impl Tiers {
 
     /// Weight of a floor, counted from 0, that the columns of its space frame carry beyond that of its mass \[N\].
     pub(crate) fn floor_load(&self, floor: usize) -> f64 {
-        let loads = self.space_frame.as_ref().map(|own| &own.floor_load);
-        loads.and_then(|own| own.get(floor)).copied().unwrap_or(0.0)
+        let loads = self
+            .space_frame
+            .as_ref()
+            .map(|space_frame| &space_frame.floor_load);
+        loads
+            .and_then(|load| load.get(floor))
+            .copied()
+            .unwrap_or(0.0)
     }
 
     /// What the weight above a storey, counted from 0, takes from its stiffness where P-Delta is included: (P/h) diag(1, 1, ρ²) at

@@ -133,14 +133,16 @@ impl Foundation {
         vertical: f64,
         rocking: Option<[f64; 2]>,
     ) -> Result<Vec<BedSpring>, String> {
-        let along = self.bed(vertical, rocking.map(|own| own[0]))?;
-        let across = self.turned().bed(vertical, rocking.map(|own| own[1]))?;
+        let along = self.bed(vertical, rocking.map(|rocking| rocking[0]))?;
+        let across = self
+            .turned()
+            .bed(vertical, rocking.map(|rocking| rocking[1]))?;
         let rows = across.iter().flat_map(|row| {
-            along.iter().map(|own| BedSpring {
-                at: own.at,
+            along.iter().map(|bed| BedSpring {
+                at: bed.at,
                 across: row.at,
-                stiffness: own.stiffness * (row.stiffness / vertical),
-                area: own.area * row.area / (self.length * self.width),
+                stiffness: bed.stiffness * (row.stiffness / vertical),
+                area: bed.area * row.area / (self.length * self.width),
             })
         });
         Ok(rows.collect())
@@ -161,7 +163,7 @@ mod tests {
     fn sums(bed: &[BedSpring]) -> [f64; 3] {
         let of = |power: i32| {
             bed.iter()
-                .map(|own| own.stiffness * own.at.powi(power))
+                .map(|bed| bed.stiffness * bed.at.powi(power))
                 .sum()
         };
         [of(0), of(1), of(2)]
@@ -177,7 +179,7 @@ mod tests {
         assert!((vertical / 2e8 - 1.0).abs() < 1e-12);
         assert!(skew.abs() < 1.0);
         assert!((rocking / (2e8 * 3.0) - 1.0).abs() < 1e-4, "{rocking}");
-        let area: f64 = bed.iter().map(|own| own.area).sum();
+        let area: f64 = bed.iter().map(|bed| bed.area).sum();
         assert!((area / 12.0 - 1.0).abs() < 1e-12);
         let ends = Some(1e9);
         let stiff = Uplift {
@@ -191,26 +193,34 @@ mod tests {
     /// In plan the grid has the sums of both directions.
     #[test]
     fn a_grid_has_the_sums_of_both_directions() {
-        let own = footing(Uplift {
+        let footing = footing(Uplift {
             springs_across: Some(3),
             ..Uplift::with_springs(4)
         });
-        let bed = own.bed_in_plan(2e8, Some([1.5e9, 1.2e8])).expect("sound");
+        let bed = footing
+            .bed_in_plan(2e8, Some([1.5e9, 1.2e8]))
+            .expect("sound");
         assert_eq!(bed.len(), 12);
         let of = |value: &dyn Fn(&BedSpring) -> f64| bed.iter().map(value).sum::<f64>();
         for (found, due) in [
-            (of(&|own| own.stiffness), 2e8),
-            (of(&|own| own.stiffness * own.at * own.at), 1.5e9),
-            (of(&|own| own.stiffness * own.across * own.across), 1.2e8),
-            (of(&|own| own.area), 12.0),
+            (of(&|spring| spring.stiffness), 2e8),
+            (
+                of(&|spring| spring.stiffness * spring.at * spring.at),
+                1.5e9,
+            ),
+            (
+                of(&|spring| spring.stiffness * spring.across * spring.across),
+                1.2e8,
+            ),
+            (of(&|spring| spring.area), 12.0),
         ] {
             assert!((found / due - 1.0).abs() < 1e-12, "{found} {due}");
         }
-        let turned = own.turned().bed_in_plan(2e8, Some([1.2e8, 1.5e9]));
+        let turned = footing.turned().bed_in_plan(2e8, Some([1.2e8, 1.5e9]));
         let turned = turned.expect("sound");
-        assert!(turned.iter().all(|own| bed.iter().any(|other| {
-            (own.at - other.across).abs() + (own.across - other.at).abs() < 1e-12
-                && (own.stiffness / other.stiffness - 1.0).abs() < 1e-12
+        assert!(turned.iter().all(|footing| bed.iter().any(|other| {
+            (footing.at - other.across).abs() + (footing.across - other.at).abs() < 1e-12
+                && (footing.stiffness / other.stiffness - 1.0).abs() < 1e-12
         })));
     }
 
@@ -218,13 +228,13 @@ mod tests {
     #[test]
     fn both_sums_are_those_of_the_soil() {
         for count in [2, 3, 4, 11] {
-            let own = footing(Uplift::with_springs(count));
-            let bed = own.bed(2e8, Some(1.5e9)).expect("within reach");
+            let footing = footing(Uplift::with_springs(count));
+            let bed = footing.bed(2e8, Some(1.5e9)).expect("within reach");
             let [vertical, skew, rocking] = sums(&bed);
             assert!((vertical / 2e8 - 1.0).abs() < 1e-12);
             assert!(skew.abs() < 1.0, "{skew}");
             assert!((rocking / 1.5e9 - 1.0).abs() < 1e-12, "{count}: {rocking}");
-            assert!(own.bed(2e8, Some(1.9e9)).is_err(), "more than K_z L²/4");
+            assert!(footing.bed(2e8, Some(1.9e9)).is_err(), "more than K_z L²/4");
         }
         let uneven = footing(Uplift::with_springs(5));
         assert!(

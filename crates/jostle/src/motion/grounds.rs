@@ -59,16 +59,18 @@ impl GroundMotion {
     /// The ground under a building or a wall, in the order of [`Grounds::own`].
     #[must_use]
     pub fn under(&self, index: usize) -> GroundPath<'_> {
-        let own = self.grounds.as_ref().and_then(|all| all.own.get(index));
-        let motion = own.and_then(|own| own.motion.as_ref()).unwrap_or(self);
+        let ground = self.grounds.as_ref().and_then(|all| all.own.get(index));
+        let motion = ground
+            .and_then(|ground| ground.motion.as_ref())
+            .unwrap_or(self);
         let bearing = motion.bearing.as_deref().or(self.bearing.as_deref());
         let across = bearing.and_then(|bearing| bearing.across.as_ref());
         GroundPath {
-            arrival: own.map_or(0.0, |own| own.arrival),
+            arrival: ground.map_or(0.0, |ground| ground.arrival),
             turned: bearing.map_or((0.0, 1.0), |Bearing { angle, .. }| libm::sincos(*angle)),
             along: Integrals::new(motion),
             across: across.map(Integrals::new),
-            vertical: own.and_then(|own| own.vertical.as_ref()),
+            vertical: ground.and_then(|ground| ground.vertical.as_ref()),
         }
     }
 
@@ -79,8 +81,8 @@ impl GroundMotion {
         let Some(grounds) = &self.grounds else {
             return true;
         };
-        let own = |index: usize| grounds.own.get(index).unwrap_or(&common);
-        let (one, other) = (own(one), own(other));
+        let own_of = |index: usize| grounds.own.get(index).unwrap_or(&common);
+        let (one, other) = (own_of(one), own_of(other));
         one.arrival == other.arrival && one.motion == other.motion
     }
 
@@ -94,21 +96,21 @@ impl GroundMotion {
     #[must_use]
     pub fn is_vertical(&self) -> bool {
         let grounds = self.grounds.iter().flat_map(|grounds| &grounds.own);
-        grounds.into_iter().any(|own| own.vertical.is_some())
+        grounds.into_iter().any(|ground| ground.vertical.is_some())
     }
 
     /// All motions: the common one, and those of single grounds, each with its arrival.
     fn parts(&self) -> impl Iterator<Item = (&Self, f64)> {
-        let own = self.grounds.iter().flat_map(|grounds| &grounds.own);
-        let own = own.flat_map(|own| {
-            let along = own.motion.as_ref().unwrap_or(self);
-            let vertical = own.vertical.as_ref();
+        let grounds = self.grounds.iter().flat_map(|grounds| &grounds.own);
+        let motions = grounds.flat_map(|ground| {
+            let along = ground.motion.as_ref().unwrap_or(self);
+            let vertical = ground.vertical.as_ref();
             [Some(along), vertical]
                 .into_iter()
                 .flatten()
-                .map(|motion| (motion, own.arrival))
+                .map(|motion| (motion, ground.arrival))
         });
-        std::iter::once((self, 0.0)).chain(own)
+        std::iter::once((self, 0.0)).chain(motions)
     }
 
     /// Steps of this and every other record with their arrivals \[s\].
@@ -184,10 +186,10 @@ impl GroundPath<'_> {
     }
 
     pub(crate) fn on_side(&self, t: f64, side: Side) -> GroundPoint {
-        let own = t - self.arrival;
-        let along = self.along.at(own, side);
+        let elapsed = t - self.arrival;
+        let along = self.along.at(elapsed, side);
         let across = self.across.as_ref();
-        let across = across.map_or([0.0; 3], |motion| motion.at(own, side));
+        let across = across.map_or([0.0; 3], |motion| motion.at(elapsed, side));
         let (sin, cos) = self.turned;
         let turned = |order: usize| {
             let (first, second) = (along[order], across[order]);
@@ -195,7 +197,7 @@ impl GroundPath<'_> {
         };
         let [x, y] = turned(0);
         let vertical = self.vertical;
-        let up = vertical.map_or(0.0, |motion| side.acceleration(motion, own));
+        let up = vertical.map_or(0.0, |motion| side.acceleration(motion, elapsed));
         GroundPoint {
             acceleration: [x, y, up],
             velocity: turned(1),
@@ -205,21 +207,21 @@ impl GroundPath<'_> {
 
     /// The first instant after `t` at which the acceleration may jump, or its slope if `corners` are asked for \[s\].
     pub(crate) fn next_corner(&self, t: f64, corners: bool) -> Option<f64> {
-        let own = t - self.arrival;
+        let elapsed = t - self.arrival;
         let across = self.across.as_ref().map(|across| across.motion);
         let motions = [Some(self.along.motion), across, self.vertical];
         let next = motions.into_iter().flatten().filter_map(|motion| {
             let end = end_of(motion);
             let close = SAME_INSTANT * motion.step().unwrap_or(1.0);
-            if own < -close {
+            if elapsed < -close {
                 return Some(0.0);
             }
             match &motion.wave {
-                Wave::Sampled { step, .. } if corners && own < end - close => {
-                    Some((((own + close) / step).floor() + 1.0) * step)
+                Wave::Sampled { step, .. } if corners && elapsed < end - close => {
+                    Some((((elapsed + close) / step).floor() + 1.0) * step)
                 }
                 Wave::Sampled { .. } | Wave::Sine { .. } | Wave::Ricker { .. } => {
-                    (own < end - close).then_some(end)
+                    (elapsed < end - close).then_some(end)
                 }
             }
         });

@@ -258,8 +258,8 @@ impl Pushover {
                 PushEventKind::Turns | PushEventKind::Fails | PushEventKind::Closes => continue,
             };
             // Links beyond the springs of the building.
-            if let Some(own) = stages.get_mut(event.spring) {
-                *own = stage.max(*own);
+            if let Some(highest) = stages.get_mut(event.spring) {
+                *highest = stage.max(*highest);
             }
         }
         stages
@@ -388,9 +388,9 @@ impl<'a, E: StepEquations> Push<'a, E> {
         walk: EquilibriumPath<E>,
         target: f64,
     ) -> (Vec<PushPoint>, PushEnd) {
-        let own = building.equations.springs.iter();
-        let own = own.map(|spring| spring.hysteresis);
-        let springs: Vec<Hysteresis> = own
+        let yielding = building.equations.springs.iter();
+        let hysteresis = yielding.map(|spring| spring.hysteresis);
+        let springs: Vec<Hysteresis> = hysteresis
             .chain(links(building).map(|(_, spring)| spring))
             .collect();
         let all: Vec<usize> = (0..springs.len()).collect();

@@ -34,10 +34,10 @@ fn ratings<'a>(run: &'a Run) -> impl Iterator<Item = (&'a MemberRating, &'a [Sec
 
 /// Shear of the joints of a building that are rated.
 pub(super) fn joints_of(building: usize, run: &Run) -> Vec<JointSummary> {
-    let own = &run.system.buildings[building];
+    let system_building = &run.system.buildings[building];
     let joints = ratings(run).filter_map(|(rating, entries)| match rating.part {
         RatedPart::Joint(joint) if rating.building == building => {
-            Some((&own.members.joints[joint], rating, entries))
+            Some((&system_building.members.joints[joint], rating, entries))
         }
         _ => None,
     });
@@ -115,9 +115,9 @@ pub(super) fn ratios_of(building: usize, member: usize, run: &Run) -> Vec<RatioS
     let sections = &run.system.buildings[building].members.members[member];
     let rules = &rating.capacity.rules;
     let by_rule = rules.iter().enumerate().map(|(index, rule)| {
-        let own = || entries.iter().skip(index).step_by(rules.len()).enumerate();
+        let section_ratios = || entries.iter().skip(index).step_by(rules.len()).enumerate();
         let greatest = |of: fn(&SectionRatio) -> &RatioPeak| {
-            let peaks = own().map(|(section, entry)| (section, of(entry)));
+            let peaks = section_ratios().map(|(section, entry)| (section, of(entry)));
             let exceeded = peaks.clone().filter_map(|(_, peak)| peak.exceeded_at);
             let exceeded_s = exceeded.min_by(f64::total_cmp);
             let (section, peak) = peaks.reduce(|best, other| {
@@ -158,17 +158,17 @@ pub(super) fn axial_failure(
 ) -> Option<AxialFailureSummary> {
     let (rating, _) = rated(building, member, run)?;
     let line = &rating.capacity.axial_failure_drift;
-    let own = &run.system.buildings[building].members.members[member];
-    let storey = match own.place {
+    let member = &run.system.buildings[building].members.members[member];
+    let storey = match member.place {
         MemberPlace::Column { storey, .. } => storey,
-        MemberPlace::InSpace(place) if own.place.is_column() => place.storey() + 1,
+        MemberPlace::InSpace(place) if member.place.is_column() => place.storey() + 1,
         _ => return None,
     };
     if line.points().is_empty() {
         return None;
     }
     let extremes = &run.outcome.members[building];
-    let least = own
+    let least = member
         .sections
         .iter()
         .map(|section| extremes[section.forms[0]][1]);
@@ -187,16 +187,16 @@ pub(super) fn acceptance(building: usize, member: usize, run: &Run) -> Vec<Accep
     let Some((rating, _)) = rated(building, member, run) else {
         return Vec::new();
     };
-    let own = &run.system.buildings[building];
-    let place = own.members.members[member].place;
-    let springs = &run.outcome.state.springs[own.spring_range()];
+    let building = &run.system.buildings[building];
+    let place = building.members.members[member].place;
+    let springs = &run.outcome.state.springs[building.spring_range()];
     let limits = rating.capacity.rotations.iter();
     let against = limits.filter_map(|limits| {
         let of = |(end, [plastic, chord]): (MemberEnd, [f64; 2])| match limits.measure {
             RotationMeasure::Plastic => (end, plastic),
             RotationMeasure::Chord => (end, chord),
         };
-        let rotations = rating.rotations(own, springs).map(of);
+        let rotations = rating.rotations(building, springs).map(of);
         let (end, rotation_rad) =
             rotations.reduce(|best, other| if other.1 > best.1 { other } else { best })?;
         let at = match end {
@@ -316,9 +316,9 @@ fn first_joint(joints: &[JointSummary], building: usize, run: &Run) -> Option<Ex
 
 /// The first member beyond its capacity by the governing rule.
 fn first_of(building: usize, run: &Run) -> Option<ExceededSummary> {
-    let own = &run.system.buildings[building];
+    let system_building = &run.system.buildings[building];
     let mut first: Option<(f64, ExceededSummary)> = None;
-    for (index, member) in own.members.members.iter().enumerate() {
+    for (index, member) in system_building.members.members.iter().enumerate() {
         let Some((rating, entries)) = rated(building, index, run) else {
             continue;
         };
@@ -330,7 +330,7 @@ fn first_of(building: usize, run: &Run) -> Option<ExceededSummary> {
                 };
                 if first.as_ref().is_none_or(|(known, _)| time < *known) {
                     let found = ExceededSummary {
-                        member: member_name(own, member),
+                        member: member_name(system_building, member),
                         kind,
                         at: section_name(member.place, section.at),
                         at_s: time,

@@ -13,8 +13,12 @@ pub fn overdamped_contacts(model: &Model, system: &System) -> Vec<(usize, String
         if !matches!(gap.law.kind, LawKind::Dashpot(_)) {
             continue;
         }
-        let own = system.contacts.iter().filter(|own| own.gap == index);
-        let ratios = own.filter_map(|own| own.law.damping_ratio(own.effective_mass()));
+        let contacts = system
+            .contacts
+            .iter()
+            .filter(|contact| contact.gap == index);
+        let ratios =
+            contacts.filter_map(|contact| contact.law.damping_ratio(contact.effective_mass()));
         let ratio = ratios.fold(0.0, f64::max);
         if ratio >= 1.0 {
             found.push((
@@ -32,9 +36,9 @@ pub fn overdamped_contacts(model: &Model, system: &System) -> Vec<(usize, String
 pub(super) fn crushed_notes(model: &Model, system: &System, state: &State) -> Vec<String> {
     let mut notes = Vec::new();
     for (index, gap) in model.gaps.iter().enumerate() {
-        let own = system.contacts.iter().enumerate();
-        let own = own.filter(|(_, own)| own.gap == index);
-        let crushes = own.filter(|(_, own)| matches!(own.law, ForceLaw::Crushing(_)));
+        let contacts = system.contacts.iter().enumerate();
+        let contacts = contacts.filter(|(_, candidate)| candidate.gap == index);
+        let crushes = contacts.filter(|(_, contact)| matches!(contact.law, ForceLaw::Crushing(_)));
         let depths = crushes.map(|(contact, _)| state.crushed_depth(contact));
         let deepest = depths.fold(0.0, f64::max);
         if deepest > 0.0 {

@@ -19,21 +19,21 @@ pub(super) fn foundation_summary(
     if building.foundation_in_plan.is_some() {
         return in_plan(index, building, outcome);
     }
-    let own = building.foundation?;
+    let foundation = building.foundation?;
     let owner = Owner::Foundation(index);
     let peaks = outcome.peaks.owned_by(owner);
     Some(FoundationSummary {
         sway_peak_m: peaks.displacement().size(),
         rocking_peak_rad: peaks.turning().displacement().size(),
-        period_s: own.period,
-        period_ratio: own.period / own.fixed_period,
-        damping_ratio: own.damping,
-        damping_ratio_fixed: own.fixed_damping,
-        sway_stiffness_n_m: own.springs.sway_stiffness,
-        sway_damping_n_s_m: own.springs.sway_damping,
-        rocking_stiffness_n_m_rad: own.springs.rocking_stiffness,
-        rocking_damping_n_m_s_rad: own.springs.rocking_damping,
-        dimensionless_frequency: own.springs.frequency,
+        period_s: foundation.period,
+        period_ratio: foundation.period / foundation.fixed_period,
+        damping_ratio: foundation.damping,
+        damping_ratio_fixed: foundation.fixed_damping,
+        sway_stiffness_n_m: foundation.springs.sway_stiffness,
+        sway_damping_n_s_m: foundation.springs.sway_damping,
+        rocking_stiffness_n_m_rad: foundation.springs.rocking_stiffness,
+        rocking_damping_n_m_s_rad: foundation.springs.rocking_damping,
+        dimensionless_frequency: foundation.springs.frequency,
         damped_j: outcome.peaks.work(owner),
         in_plan: None,
     })
@@ -45,23 +45,23 @@ fn in_plan(
     building: &BuildingSystem,
     outcome: &Outcome,
 ) -> Option<FoundationSummary> {
-    let own = building.foundation_in_plan?;
+    let foundation = building.foundation_in_plan?;
     let owner = Owner::Foundation(index);
     let peaks = outcome.peaks.owned_by(owner);
-    let rocked = [peaks, peaks.across()].map(|own| own.of(Kind::Rocking).size());
+    let rocked = [peaks, peaks.across()].map(|peaks| peaks.of(Kind::Rocking).size());
     let PlanFoundationSprings {
         along,
         across,
         torsion,
-    } = own.springs;
-    let ratios = [0, 1].map(|axis| own.periods[axis] / own.fixed_periods[axis]);
+    } = foundation.springs;
+    let ratios = [0, 1].map(|axis| foundation.periods[axis] / foundation.fixed_periods[axis]);
     Some(FoundationSummary {
         sway_peak_m: peaks.displacement().size(),
         rocking_peak_rad: rocked[0],
-        period_s: own.periods[0],
+        period_s: foundation.periods[0],
         period_ratio: ratios[0],
-        damping_ratio: own.damping[0],
-        damping_ratio_fixed: own.fixed_damping[0],
+        damping_ratio: foundation.damping[0],
+        damping_ratio_fixed: foundation.fixed_damping[0],
         sway_stiffness_n_m: along.sway_stiffness,
         sway_damping_n_s_m: along.sway_damping,
         rocking_stiffness_n_m_rad: along.rocking_stiffness,
@@ -72,10 +72,10 @@ fn in_plan(
             sway_across_peak_m: peaks.across().displacement().size(),
             rocking_across_peak_rad: rocked[1],
             torsion_peak_rad: peaks.turning().displacement().size(),
-            period_across_s: own.periods[1],
+            period_across_s: foundation.periods[1],
             period_ratio_across: ratios[1],
-            damping_ratio_across: own.damping[1],
-            damping_ratio_across_fixed: own.fixed_damping[1],
+            damping_ratio_across: foundation.damping[1],
+            damping_ratio_across_fixed: foundation.fixed_damping[1],
             sway_across_stiffness_n_m: across.sway_stiffness,
             sway_across_damping_n_s_m: across.sway_damping,
             rocking_across_stiffness_n_m_rad: across.rocking_stiffness,
@@ -90,10 +90,11 @@ fn in_plan(
 /// `None` without foundations \[J\].
 pub(super) fn soil_energy(system: &System, outcome: &Outcome) -> Option<[f64; 2]> {
     let mut buildings = system.buildings.iter();
-    let founded = buildings.any(|own| own.foundation.is_some() || own.foundation_in_plan.is_some());
+    let founded = buildings
+        .any(|building| building.foundation.is_some() || building.foundation_in_plan.is_some());
     let buildings = 0..system.buildings.len();
-    let own = buildings.map(|building| outcome.peaks.work(Owner::Foundation(building)));
-    let own: f64 = own.sum();
+    let works = buildings.map(|building| outcome.peaks.work(Owner::Foundation(building)));
+    let dissipated: f64 = works.sum();
     let links = system.links.iter().enumerate();
     let displacement = &outcome.state.displacement;
     let between = links.skip(system.model_links().len()).map(|(index, link)| {
@@ -101,7 +102,7 @@ pub(super) fn soil_energy(system: &System, outcome: &Outcome) -> Option<[f64; 2]
         work - link.strain(link.shortening(displacement))
     });
     let between = between.sum::<f64>();
-    founded.then_some([own + between, between])
+    founded.then_some([dissipated + between, between])
 }
 
 /// Foundations beyond what the formulas for their springs are meant for, one line each.
@@ -110,10 +111,10 @@ pub fn foundation_warnings(system: &System) -> Vec<String> {
     let mut warnings = Vec::new();
     for building in system.structures() {
         let in_plane = building.foundation;
-        let in_plane = in_plane.map(|own| (own.foundation, own.springs.frequency));
-        let in_plan = building.foundation_in_plan.map(|own| {
-            let PlanFoundationSprings { along, across, .. } = own.springs;
-            (own.foundation, along.frequency.max(across.frequency))
+        let in_plane = in_plane.map(|plane| (plane.foundation, plane.springs.frequency));
+        let in_plan = building.foundation_in_plan.map(|foundation| {
+            let PlanFoundationSprings { along, across, .. } = foundation.springs;
+            (foundation.foundation, along.frequency.max(across.frequency))
         });
         let Some((foundation, frequency)) = in_plane.or(in_plan) else {
             continue;

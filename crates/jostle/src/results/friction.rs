@@ -9,8 +9,11 @@ use crate::system::System;
 pub fn friction_warnings(model: &Model, system: &System) -> Vec<String> {
     let mut warnings = Vec::new();
     for (index, gap) in model.gaps.iter().enumerate() {
-        let own = system.contacts.iter().filter(|own| own.gap == index);
-        let limits = own.filter_map(|own| Some((own.friction.as_ref()?, own)));
+        let contacts = system
+            .contacts
+            .iter()
+            .filter(|contact| contact.gap == index);
+        let limits = contacts.filter_map(|contact| Some((contact.friction.as_ref()?, contact)));
         let least = limits.min_by(|(a, _), (b, _)| a.unique_below.total_cmp(&b.unique_below));
         let Some((friction, contact)) = least else {
             continue;

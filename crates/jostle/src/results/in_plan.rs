@@ -239,7 +239,7 @@ pub(super) fn building_in_plan(index: usize, outcome: &Outcome) -> Option<Buildi
     let base = outcome.peaks.owned_by(Owner::Building(index));
     let of_base = |column| outcome.peaks.get(column).map(|peak| peak.size());
     let [shear, torque] =
-        [base.across(), base.turning()].map(|own| of_base(own.column(Kind::Shear)));
+        [base.across(), base.turning()].map(|peaks| of_base(peaks.column(Kind::Shear)));
     let greatest = |of: &dyn Fn(&FloorInPlan) -> f64| floors.iter().map(of).fold(0.0, f64::max);
     Some(BuildingInPlan {
         corner_displacement_peak_m: greatest(&|floor| floor.corner_displacement_peak_m),
@@ -259,10 +259,13 @@ pub(super) fn place_of_face(
     face: usize,
 ) -> Option<PlanContactSummary> {
     let points = || system.contacts.iter().filter_map(|contact| contact.plan);
-    let mut own = points().filter(|place| place.face == face);
-    let first = own.next()?;
-    let last = own.next_back().unwrap_or(first);
-    let impacts = outcome.face_impacts.iter().filter(|own| own.face == face);
+    let mut points = points().filter(|place| place.face == face);
+    let first = points.next()?;
+    let last = points.next_back().unwrap_or(first);
+    let impacts = outcome
+        .face_impacts
+        .iter()
+        .filter(|face_impact| face_impact.face == face);
     let hardest = impacts.max_by(|a, b| a.peak_force.value.total_cmp(&b.peak_force.value));
     let forces = hardest.map_or([0.0; MOST_POINTS], |impact| impact.point_forces);
     let contacts = system.contacts.iter();
@@ -311,8 +314,8 @@ pub(super) fn points_of(system: &System, reported: usize) -> Vec<usize> {
 pub(super) fn impacts_of(system: &System, outcome: &Outcome, reported: usize) -> Vec<Impact> {
     if !system.is_in_space() {
         let impacts = outcome.impacts.iter();
-        let own = impacts.filter(|impact| impact.contact == reported);
-        return own.copied().collect();
+        let impacts = impacts.filter(|impact| impact.contact == reported);
+        return impacts.copied().collect();
     }
     let of_face = |impact: &&Impact| {
         let place = system.contacts[impact.contact].plan;
@@ -381,7 +384,7 @@ fn sliding_of(face: &FaceImpact, points: &[&Impact]) -> Sliding {
 /// Centre of pressure at the greatest force of an impact \[m\]; `None` in one plane.
 pub(super) fn centre_of(impact: &Impact, outcome: &Outcome) -> Option<[f64; 2]> {
     let mut faces = outcome.face_impacts.iter();
-    let own = faces
+    let impact_face = faces
         .find(|face| face.face == impact.contact && face.peak_force.at == impact.peak_force_at);
-    own.map(|face| face.centre)
+    impact_face.map(|face| face.centre)
 }

@@ -24,7 +24,7 @@ pub(super) fn isolation_summary(
     let (mat_moves, bearings) = (peaks.floor(index, 0).displacement(), Owner::Support(index));
     let springs = building.equations.springs.iter().enumerate();
     let (mut hysteretic, mut stop, mut stages) = (0.0, None, Vec::new());
-    for (spring, own) in springs {
+    for (spring, yielding_spring) in springs {
         let global = building.spring_offset + spring;
         let Some(place) = building.discretization.spring_places.get(spring) else {
             continue;
@@ -33,17 +33,17 @@ pub(super) fn isolation_summary(
             SpringPlace::Bearings | SpringPlace::BearingInPlan { .. } => {
                 let memory = &outcome.state.springs[global];
                 let work = peaks.work(Owner::Spring(global));
-                hysteretic += work - own.hysteresis.recoverable_energy(memory);
+                hysteretic += work - yielding_spring.hysteresis.recoverable_energy(memory);
                 let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);
-                let mut travels = own.hysteresis.travels(force.size());
-                travels.extend(own.hysteresis.travels_in_plan(memory));
+                let mut travels = yielding_spring.hysteresis.travels(force.size());
+                travels.extend(yielding_spring.hysteresis.travels_in_plan(memory));
                 let names = ["inner", "lower", "upper"];
                 let names = &names[names.len() - travels.len()..];
                 for (name, [went, travel_m]) in names.iter().zip(travels) {
                     // Of the bearing that goes furthest.
                     let known = stages
                         .iter_mut()
-                        .find(|own: &&mut StageSummary| own.name == *name);
+                        .find(|stage: &&mut StageSummary| stage.name == *name);
                     match known {
                         Some(known) => known.travel_peak_m = known.travel_peak_m.max(went),
                         None => stages.push(StageSummary {
@@ -91,7 +91,7 @@ pub(super) fn isolation_summary(
         damped_j: peaks.work(bearings),
         stop_force_peak_n: stop,
         limit_exceeded: mat.isolation.reach().is_some_and(|limit| {
-            let stroke = in_plan.as_ref().map(|own| own.stroke_peak_m);
+            let stroke = in_plan.as_ref().map(|plan| plan.stroke_peak_m);
             stroke.unwrap_or(max.max(-min)) > limit
         }),
         limit_m: mat.isolation.reach(),
@@ -200,9 +200,9 @@ pub(super) fn wall_summaries(run: &Run, gaps: &[GapSummary]) -> Vec<WallSummary>
     let walls = run.system.walls.iter().enumerate();
     walls
         .map(|(index, wall)| {
-            let own = run.model.gaps.iter().zip(gaps);
-            let own = own.filter(|(gap, _)| gap.between.contains(&Some(first + index)));
-            let force = own.map(|(_, summary)| summary.total_force_peak_n);
+            let gaps = run.model.gaps.iter().zip(gaps);
+            let wall_gaps = gaps.filter(|(gap, _)| gap.between.contains(&Some(first + index)));
+            let force = wall_gaps.map(|(_, summary)| summary.total_force_peak_n);
             let peaks = &run.outcome.peaks;
             let sway = |building| peaks.sway(building, Some(0));
             let damped = |building| peaks.work(Owner::Support(building));

@@ -28,8 +28,8 @@ pub fn section_name(place: MemberPlace, at: SectionAt) -> &'static str {
 /// Full name of a member, such as `J1.column.2.3`, or `Tower.frame 1.column.2.3` where frames stand in a plan.
 #[must_use]
 pub fn member_name(building: &BuildingSystem, member: &MemberSections) -> String {
-    let own = member.local_name(&building.discretization.frames);
-    format!("{}.{own}", building.name)
+    let local_name = member.local_name(&building.discretization.frames);
+    format!("{}.{local_name}", building.name)
 }
 
 pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
@@ -158,8 +158,8 @@ fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f6
     for (index, contact) in run.system.contacts.iter().enumerate() {
         let mut ports = contact.ports.0.iter().flatten();
         let here = ports.any(|port| {
-            let own = section.dof.map(|dof| Row::single(offset + dof));
-            port.building == building && own.as_ref() == Some(&port.row)
+            let single = section.dof.map(|dof| Row::single(offset + dof));
+            port.building == building && single.as_ref() == Some(&port.row)
         });
         if here {
             let gap = &run.model.gaps[contact.gap];

@@ -22,10 +22,10 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
     }
     let springs = springs_of(building, outcome);
     let part = |force: &DiagonalForce| {
-        let own = &diagonals[force.diagonal];
+        let diagonal = &diagonals[force.diagonal];
         let [most, least] = outcome.members[index][force.form];
-        let spring = building.discretization.spring_of_diagonal(own);
-        let damage = own.damage.zip(spring).map(|(damage, spring)| {
+        let spring = building.discretization.spring_of_diagonal(diagonal);
+        let damage = diagonal.damage.zip(spring).map(|(damage, spring)| {
             let owner = Owner::Spring(building.spring_offset + spring);
             let changed = outcome.peaks.owned_by(owner).of(Kind::Stroke);
             let drift = -changed.least.value * damage.drift_per_shortening;
@@ -42,37 +42,48 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
         });
         let (deformed, dissipated_j) = match spring {
             Some(spring) => {
-                let own = &springs[spring];
+                let spring_summary = &springs[spring];
                 // What is elastic as long as it touches dissipates nothing; rounding errors of its work are no loss.
                 let rule = building.equations.springs[spring].hysteresis.rule();
                 let elastic = matches!(rule, HysteresisRule::Stop { .. });
-                let dissipated = if elastic { 0.0 } else { own.dissipated_j };
-                ([own.deformation_max, own.deformation_min], dissipated)
+                let dissipated = if elastic {
+                    0.0
+                } else {
+                    spring_summary.dissipated_j
+                };
+                (
+                    [
+                        spring_summary.deformation_max,
+                        spring_summary.deformation_min,
+                    ],
+                    dissipated,
+                )
             }
-            None => ([most, -least].map(|force| force / own.stiffness), 0.0),
+            None => ([most, -least].map(|force| force / diagonal.stiffness), 0.0),
         };
         PartSummary {
-            name: name_of(building, own.frame, &local_name(building, own)),
-            kind: own.place.kind.name(),
+            name: name_of(building, diagonal.frame, &local_name(building, diagonal)),
+            kind: diagonal.place.kind.name(),
             force_max_n: most.max(0.0),
             force_min_n: least.min(0.0),
             deformation_max: deformed[0].max(0.0),
             deformation_min: deformed[1].max(0.0),
             dissipated_j,
             buckled_s,
-            out_of_plane_ratio: own
+            out_of_plane_ratio: diagonal
                 .across
-                .map(|panel| panel.ratio(acceleration_across(index, building, own, run))),
+                .map(|panel| panel.ratio(acceleration_across(index, building, diagonal, run))),
             drift: damage.map(|(drift, _)| drift),
             damage_state: damage.map(|(_, state)| state),
             ..PartSummary::default()
         }
     };
-    let own = &building.members;
+    let members = &building.members;
     let range = |form: usize| outcome.members[index][form];
-    let walls = own.walls.iter();
-    let beams = own.coupling_beams.iter();
-    own.diagonals
+    let walls = members.walls.iter();
+    let beams = members.coupling_beams.iter();
+    members
+        .diagonals
         .iter()
         .map(part)
         .chain(walls.map(|wall| of_wall(building, &springs, wall, range)))
@@ -86,12 +97,12 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
 fn acceleration_across(
     index: usize,
     building: &BuildingSystem,
-    own: &FrameDiagonal,
+    diagonal: &FrameDiagonal,
     run: &Run,
 ) -> f64 {
     let in_plan = !building.discretization.centres.is_empty();
     // Shares of motions along x and across in that across the frame.
-    let [along, across] = own.direction.map(f64::abs);
+    let [along, across] = diagonal.direction.map(f64::abs);
     let shares = match in_plan {
         true => [across, along],
         false => [1.0, 0.0],
@@ -104,20 +115,20 @@ fn acceleration_across(
         };
         shares[0] * peaks.total_acceleration() + shares[1] * across
     };
-    let below = match own.place.storey {
+    let below = match diagonal.place.storey {
         1 if in_plan => 0.0,
         1 => run.motion.peak(),
         storey => of_floor(storey - 1),
     };
-    below.max(of_floor(own.place.storey))
+    below.max(of_floor(diagonal.place.storey))
 }
 
 /// Panels that bear less across their plane than their inertia asks.
 pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
     let warning = |building: &BuildingSummary| {
-        let ratio = |own: &PartSummary| own.out_of_plane_ratio.filter(|ratio| *ratio > 1.0);
+        let ratio = |part: &PartSummary| part.out_of_plane_ratio.filter(|ratio| *ratio > 1.0);
         let parts = building.parts.iter();
-        let beyond = parts.filter_map(|own| Some((ratio(own)?, &own.name)));
+        let beyond = parts.filter_map(|part| Some((ratio(part)?, &part.name)));
         let worst = beyond.max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(format!(
             "infill panels of \"{}\" can fall out of their plane: {} needs {:.2} times what it bears; the model keeps its struts all the same",
@@ -131,18 +142,22 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
 fn of_wall(
     building: &BuildingSystem,
     springs: &[SpringSummary],
-    own: &WallForce,
+    wall: &WallForce,
     range: impl Fn(usize) -> [f64; 2],
 ) -> PartSummary {
     let discretization = &building.discretization;
-    let spring = |place| Some(&springs[discretization.spring_at(own.frame, place)?]);
-    let (hinge, sliding) = (spring(own.hinge), own.sliding.and_then(spring));
-    let upper = own.upper_hinges.iter().filter_map(|place| spring(*place));
+    let spring = |place| Some(&springs[discretization.spring_at(wall.frame, place)?]);
+    let (hinge, sliding) = (spring(wall.hinge), wall.sliding.and_then(spring));
+    let upper = wall.upper_hinges.iter().filter_map(|place| spring(*place));
     let dissipated = [hinge, sliding].into_iter().flatten().chain(upper);
-    let (force, moment, stretched) = (range(own.axial), range(own.moment), range(own.elongation));
+    let (force, moment, stretched) = (
+        range(wall.axial),
+        range(wall.moment),
+        range(wall.elongation),
+    );
     let turned = |side: fn(&SpringSummary) -> f64| Some(hinge.map_or(0.0, side).max(0.0));
     PartSummary {
-        name: name_of(building, own.frame, &format!("wall.{}", own.number)),
+        name: name_of(building, wall.frame, &format!("wall.{}", wall.number)),
         kind: "wall",
         force_max_n: force[0].max(0.0),
         force_min_n: force[1].min(0.0),
@@ -150,9 +165,9 @@ fn of_wall(
         deformation_min: -stretched[1].min(0.0),
         moment_max_n_m: Some(moment[0]),
         moment_min_n_m: Some(moment[1]),
-        rotation_max_rad: turned(|own| own.deformation_max),
-        rotation_min_rad: turned(|own| own.deformation_min),
-        dissipated_j: dissipated.fold(0.0, |sum, own| sum + own.dissipated_j),
+        rotation_max_rad: turned(|spring| spring.deformation_max),
+        rotation_min_rad: turned(|spring| spring.deformation_min),
+        dissipated_j: dissipated.fold(0.0, |sum, spring| sum + spring.dissipated_j),
         ..PartSummary::default()
     }
 }
@@ -161,15 +176,15 @@ fn of_wall(
 fn of_coupling_beam(
     building: &BuildingSystem,
     springs: &[SpringSummary],
-    own: &CouplingForce,
+    coupling: &CouplingForce,
     range: impl Fn(usize) -> [f64; 2],
 ) -> PartSummary {
     let discretization = &building.discretization;
-    let beam = discretization.coupling_beams[own.beam];
+    let beam = discretization.coupling_beams[coupling.beam];
     let (floor, span) = (beam.part.floor, beam.part.bay);
     let sliding = SpringPlace::sliding(MemberPlace::Beam { floor, span });
     let spring = discretization.spring_at(beam.frame, sliding);
-    let (force, [most, least]) = (range(own.shear), range(own.chord));
+    let (force, [most, least]) = (range(coupling.shear), range(coupling.chord));
     let (most, least) = (most.max(0.0), -least.min(0.0));
     PartSummary {
         name: name_of(
@@ -182,8 +197,8 @@ fn of_coupling_beam(
         force_min_n: force[1].min(0.0),
         deformation_max: most,
         deformation_min: least,
-        rotation_max_rad: Some(most / own.length),
-        rotation_min_rad: Some(least / own.length),
+        rotation_max_rad: Some(most / coupling.length),
+        rotation_min_rad: Some(least / coupling.length),
         dissipated_j: spring.map_or(0.0, |index| springs[index].dissipated_j),
         ..PartSummary::default()
     }
@@ -195,8 +210,8 @@ pub(super) fn degree_of_coupling(
     building: &BuildingSystem,
     outcome: &Outcome,
 ) -> Option<f64> {
-    let own = building.members.coupling?;
-    let [couple, total] = [own.couple, own.total].map(|form| {
+    let coupling = building.members.coupling?;
+    let [couple, total] = [coupling.couple, coupling.total].map(|form| {
         let [most, least] = outcome.members[index][form];
         most.max(-least)
     });
@@ -211,40 +226,43 @@ fn footings_of(
 ) -> Vec<PartSummary> {
     let mut footings: Vec<(Option<usize>, PartSummary)> = Vec::new();
     let bed = &building.discretization.stick_model.bed;
-    for own in springs {
-        let place = building.discretization.spring_places.get(own.index);
+    for spring_summary in springs {
+        let place = building
+            .discretization
+            .spring_places
+            .get(spring_summary.index);
         let Some(&SpringPlace::Footing { line, spring }) = place else {
             continue;
         };
         if footings.last().is_none_or(|(known, _)| *known != line) {
             let number = line.map_or_else(String::new, |line| format!(".{line}"));
-            let own = PartSummary {
+            let part = PartSummary {
                 name: format!("{}.footing{number}", building.name),
                 kind: FOOTING,
                 ..PartSummary::default()
             };
-            footings.push((line, own));
+            footings.push((line, part));
         }
         let Some((_, footing)) = footings.last_mut() else {
             continue;
         };
-        let global = building.spring_offset + own.index;
-        let law = &building.equations.springs[own.index].hysteresis;
+        let global = building.spring_offset + spring_summary.index;
+        let law = &building.equations.springs[spring_summary.index].hysteresis;
         let lifted = outcome
             .peaks
             .owned_by(Owner::Spring(global))
             .of(Kind::Lifted);
         let strip = bed.get(spring - 1).filter(|_| line.is_none());
         let raise = |value: &mut f64, to: f64| *value = value.max(to);
-        footing.force_min_n = footing.force_min_n.min(-own.peak_force);
-        raise(&mut footing.deformation_max, own.deformation_max);
-        raise(&mut footing.deformation_min, own.deformation_min);
+        footing.force_min_n = footing.force_min_n.min(-spring_summary.peak_force);
+        raise(&mut footing.deformation_max, spring_summary.deformation_max);
+        raise(&mut footing.deformation_min, spring_summary.deformation_min);
         // Ground that has not yielded is elastic; rounding errors of its work are no loss.
-        if own.yielded_s.is_some() {
-            footing.dissipated_j += own.dissipated_j;
+        if spring_summary.yielded_s.is_some() {
+            footing.dissipated_j += spring_summary.dissipated_j;
         }
         let share = lifted.greatest.value / outcome.state.time.max(f64::MIN_POSITIVE);
-        let pressure = strip.map(|strip| own.peak_force / strip.area);
+        let pressure = strip.map(|strip| spring_summary.peak_force / strip.area);
         let settled = law.settlement(&outcome.state.springs[global]);
         for (value, found) in [
             (&mut footing.lifted_share, Some(share)),
@@ -270,15 +288,21 @@ fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> Strin
 }
 
 /// Name within its frame; only where two cross it says which way it rises.
-fn local_name(building: &BuildingSystem, own: &FrameDiagonal) -> String {
-    let bay = |own: &FrameDiagonal| {
-        let place = own.place;
-        (own.frame, place.kind, place.line, place.storey, place.bay)
+fn local_name(building: &BuildingSystem, diagonal: &FrameDiagonal) -> String {
+    let bay = |diagonal: &FrameDiagonal| {
+        let place = diagonal.place;
+        (
+            diagonal.frame,
+            place.kind,
+            place.line,
+            place.storey,
+            place.bay,
+        )
     };
-    let same = |other: &&FrameDiagonal| bay(other) == bay(own);
+    let same = |other: &&FrameDiagonal| bay(other) == bay(diagonal);
     let diagonals = &building.discretization.diagonals;
     let crossed = diagonals.iter().filter(same).count() > 1;
-    let name = own.place.to_string();
+    let name = diagonal.place.to_string();
     match name.rsplit_once('.') {
         Some((bay, _)) if !crossed => bay.to_owned(),
         _ => name,

@@ -37,17 +37,17 @@ impl Summary {
     /// `model.gaps`, whose run this is the summary of.
     #[must_use]
     pub fn required_gaps(&self, model: &Model, gap: usize, inputs: &CodeInputs) -> Requirements {
-        let (Some(of_gap), Some(own)) = (model.gaps.get(gap), self.gaps.get(gap)) else {
+        let (Some(of_gap), Some(gap_summary)) = (model.gaps.get(gap), self.gaps.get(gap)) else {
             return Requirements::default();
         };
-        let places = own.contacts.iter().filter_map(|contact| {
+        let places = gap_summary.contacts.iter().filter_map(|contact| {
             let normal = normal_of(contact);
             let peaks = of_gap
                 .between
                 .map(|side| self.peak(model, side, contact.height_m, normal));
             // A face that stands back by more than both sides move needs no gap.
-            let is_beyond = contact.width_m - own.width_m > peaks.iter().sum();
-            (!is_beyond || own.contacts.len() == 1).then_some(Place {
+            let is_beyond = contact.width_m - gap_summary.width_m > peaks.iter().sum();
+            (!is_beyond || gap_summary.contacts.len() == 1).then_some(Place {
                 height: contact.height_m,
                 peaks,
             })
@@ -55,15 +55,15 @@ impl Summary {
         let beside = model.buildings_beside(of_gap.between);
         let sides = [0, 1].map(|side| {
             let building = beside[side]?;
-            let own = &model.buildings[building];
+            let model_building = &model.buildings[building];
             let neighbour = beside[1 - side].map(|other| model.buildings[other].base.elevation);
-            let (height, storeys) = above_ground(own, neighbour);
+            let (height, storeys) = above_ground(model_building, neighbour);
             Some(Side {
                 building,
-                name: own.name.clone(),
+                name: model_building.name.clone(),
                 height,
                 storeys,
-                yields: own.may_yield(),
+                yields: model_building.may_yield(),
             })
         });
         let neighbours = Neighbours {
@@ -81,7 +81,7 @@ impl Summary {
     #[must_use]
     pub fn first_modes(&self, model: &Model, gap: usize) -> [Option<(f64, f64)>; 2] {
         let between = model.gaps.get(gap).map_or([None; 2], |gap| gap.between);
-        let contacts = self.gaps.get(gap).map(|own| &own.contacts[..]);
+        let contacts = self.gaps.get(gap).map(|gap| &gap.contacts[..]);
         let highest = contacts.unwrap_or_default().iter();
         let highest = highest.max_by(|a, b| a.height_m.total_cmp(&b.height_m));
         let normal = highest.map_or([1.0, 0.0], normal_of);
@@ -106,11 +106,11 @@ impl Summary {
     /// move \[m\].
     fn peak(&self, model: &Model, side: Option<usize>, height: f64, normal: [f64; 2]) -> f64 {
         let Some(side) = side else { return 0.0 };
-        let Some(own) = self.buildings.get(side) else {
+        let Some(building) = self.buildings.get(side) else {
             let wall = self.walls.get(side - model.buildings.len());
             return wall.map_or(0.0, |wall| wall.displacement_peak_m);
         };
-        let floors = own.floors.mat.iter().chain(&own.floors.above);
+        let floors = building.floors.mat.iter().chain(&building.floors.above);
         let peak = |floor: &FloorSummary| (floor.height_m, floor.displacement_peak_m(normal));
         let foot = model.buildings[side].base.elevation;
         peak_at_height(floors.map(peak), height - foot)
@@ -119,29 +119,29 @@ impl Summary {
 
 /// The direction in which two buildings meet.
 fn normal_of(contact: &ContactSummary) -> [f64; 2] {
-    contact.in_plan.map_or([1.0, 0.0], |own| own.normal)
+    contact.in_plan.map_or([1.0, 0.0], |plan| plan.normal)
 }
 
 /// Period and damping ratio of the fundamental mode along a normal, that of the soil included \[s, –\].
 fn first_mode(
-    own: &BuildingSummary,
+    building: &BuildingSummary,
     damping: &Damping,
     [x, across]: [f64; 2],
 ) -> Option<(f64, f64)> {
-    let [along, sideways] = own.fundamental_periods_s;
+    let [along, sideways] = building.fundamental_periods_s;
     let nearer = if across.abs() > x.abs() {
         sideways
     } else {
         along
     };
-    let known = [nearer, own.periods_s.first().copied().unwrap_or(0.0)];
+    let known = [nearer, building.periods_s.first().copied().unwrap_or(0.0)];
     let period = known.into_iter().find(|period| *period > 0.0)?;
     let omega = std::f64::consts::TAU / period;
-    let damping = match (&own.foundation, damping) {
+    let damping = match (&building.foundation, damping) {
         (Some(foundation), _) => foundation.damping_ratio,
         (None, Damping::AllModes { ratio }) => *ratio,
         (None, Damping::Ratio { .. } | Damping::Rayleigh { .. }) => {
-            0.5 * (own.rayleigh_alpha_per_s / omega + own.rayleigh_beta_s * omega)
+            0.5 * (building.rayleigh_alpha_per_s / omega + building.rayleigh_beta_s * omega)
         }
     };
     (damping > 0.0 && damping.is_finite()).then_some((period, damping))

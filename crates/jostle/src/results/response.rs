@@ -178,10 +178,10 @@ pub(super) fn building_response(
 fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
     let u = &outcome.state.displacement;
     if !building.plan_storeys.is_empty() {
-        let own = &u[building.range()];
+        let displacement = &u[building.range()];
         let storeys = building.plan_storeys.iter();
         return storeys
-            .map(|storey| storey.apart(own)[0] / storey.height)
+            .map(|storey| storey.apart(displacement)[0] / storey.height)
             .collect();
     }
     let mut below = building.foot.map_or(0.0, |dof| u[dof]);

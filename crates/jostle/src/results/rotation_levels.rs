@@ -8,14 +8,14 @@ use crate::model::{RotationLevel, RotationMeasure};
 
 /// Members of a building with limits; `None` without any.
 pub(super) fn rotation_levels(building: usize, run: &Run) -> Option<RotationLevelsSummary> {
-    let own = &run.system.buildings[building];
-    if own.limited_ends.is_empty() {
+    let building = &run.system.buildings[building];
+    if building.limited_ends.is_empty() {
         return None;
     }
     let mut list: Vec<MemberLevel> = Vec::new();
-    for end in &own.limited_ends {
-        let global = own.spring_offset + end.spring;
-        let law = &own.equations.springs[end.spring].hysteresis;
+    for end in &building.limited_ends {
+        let global = building.spring_offset + end.spring;
+        let law = &building.equations.springs[end.spring].hysteresis;
         let rotation_rad = end.rotation(law, &run.outcome.state.springs[global]);
         let peaks = run.outcome.peaks.owned_by(Owner::Spring(global));
         let limits = end.limits.iter().map(|(level, limit)| {
@@ -27,9 +27,9 @@ pub(super) fn rotation_levels(building: usize, run: &Run) -> Option<RotationLeve
             }
         });
         let limits: Vec<ReachedLevel> = limits.collect();
-        let highest = limits.last().map_or(f64::INFINITY, |own| own.limit_rad);
+        let highest = limits.last().map_or(f64::INFINITY, |limit| limit.limit_rad);
         let found = MemberLevel {
-            member: format!("{}.{}", own.name, end.member),
+            member: format!("{}.{}", building.name, end.member),
             at: end.at,
             measure: match end.measure {
                 RotationMeasure::Plastic => "plastic",
@@ -45,17 +45,20 @@ pub(super) fn rotation_levels(building: usize, run: &Run) -> Option<RotationLeve
             None => list.push(found),
         }
     }
-    for own in &mut list {
-        let beyond = own.limits.iter().filter(|level| level.beyond_s.is_some());
-        own.beyond = beyond.map(|level| level.level).next_back();
+    for member in &mut list {
+        let beyond = member
+            .limits
+            .iter()
+            .filter(|level| level.beyond_s.is_some());
+        member.beyond = beyond.map(|level| level.level).next_back();
     }
     sort_by(&mut list, |a, b| {
-        let level = |own: &MemberLevel| own.beyond.map_or(0, |level| 1 + level as usize);
+        let level = |rank: &MemberLevel| rank.beyond.map_or(0, |level| 1 + level as usize);
         level(b).cmp(&level(a)).then(b.ratio.total_cmp(&a.ratio))
     });
     let beyond = |level: RotationLevel| {
-        let all = list.iter().filter_map(|own| own.beyond);
-        all.filter(|own| *own >= level).count()
+        let all = list.iter().filter_map(|member| member.beyond);
+        all.filter(|beyond| *beyond >= level).count()
     };
     let [beyond_io, beyond_ls, beyond_cp] = RotationLevel::ALL.map(beyond);
     Some(RotationLevelsSummary {
@@ -70,9 +73,9 @@ pub(super) fn rotation_levels(building: usize, run: &Run) -> Option<RotationLeve
 impl MemberLevel {
     /// With another end of the same member: the rotation of that which came further, and the first instant of each level.
     fn join(&mut self, other: Self) {
-        for (own, other) in self.limits.iter_mut().zip(&other.limits) {
-            let instants = [own.beyond_s, other.beyond_s].into_iter().flatten();
-            own.beyond_s = instants.reduce(f64::min);
+        for (limit, other) in self.limits.iter_mut().zip(&other.limits) {
+            let instants = [limit.beyond_s, other.beyond_s].into_iter().flatten();
+            limit.beyond_s = instants.reduce(f64::min);
         }
         if other.ratio > self.ratio {
             let limits = std::mem::take(&mut self.limits);

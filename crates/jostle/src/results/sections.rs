@@ -29,8 +29,8 @@ pub(super) fn sections_of(
                 building: index,
                 section: number,
             };
-            let own = outcome.peaks.owned_by(owner).to(direction);
-            let peak = own.of(Kind::Displacement);
+            let peaks = outcome.peaks.owned_by(owner).to(direction);
+            let peak = peaks.of(Kind::Displacement);
             [peak.greatest.value, peak.least.value]
         };
         let ([elongation_max_m, elongation_min_m], [rotation_max_rad, rotation_min_rad]) =
@@ -48,16 +48,16 @@ pub(super) fn sections_of(
         let strains = Strains::of(building, section, fibres);
         let limits = section.limits.iter().map(|(limit, strain_limit)| {
             let judged = section.fibres.iter().zip(fibres);
-            let judged = judged.filter(|(own, _)| own.material == limit.material());
-            let strains = judged.map(|(_, own)| match limit.side() {
-                Side::Positive => own.deformation_max,
-                Side::Negative => own.deformation_min,
+            let judged = judged.filter(|(candidate, _)| candidate.material == limit.material());
+            let strains = judged.map(|(_, fibre)| match limit.side() {
+                Side::Positive => fibre.deformation_max,
+                Side::Negative => fibre.deformation_min,
             });
-            let own = outcome.peaks.owned_by(Owner::Section {
+            let peaks = outcome.peaks.owned_by(Owner::Section {
                 building: index,
                 section: number,
             });
-            let passed = own.of(Kind::Passed(*limit)).greatest;
+            let passed = peaks.of(Kind::Passed(*limit)).greatest;
             StrainLimitSummary {
                 limit: *limit,
                 strain_limit: *strain_limit,
@@ -83,7 +83,7 @@ pub(super) fn sections_of(
             steel_strain: strains.steel,
             yielded_s: strains.yielded_s,
             limits,
-            dissipated_j: fibres.iter().map(|own| own.dissipated_j).sum(),
+            dissipated_j: fibres.iter().map(|fibre| fibre.dissipated_j).sum(),
         }
     })
     .collect()
@@ -101,7 +101,7 @@ struct Strains {
 
 impl Strains {
     fn of(building: &BuildingSystem, section: &FibreSection, fibres: &[SpringSummary]) -> Self {
-        let mut own = Self::default();
+        let mut strains = Self::default();
         let (mut crushed, mut concrete) = (0, 0);
         let earlier = |known: Option<f64>, new: Option<f64>| match (known, new) {
             (Some(a), Some(b)) => Some(a.min(b)),
@@ -115,16 +115,16 @@ impl Strains {
             if let HysteresisRule::Concrete(_) = rule {
                 concrete += 1;
                 crushed += usize::from(fibre.yielded_s.is_some());
-                greater(&mut own.concrete, fibre.deformation_min);
-                own.crushed_s = earlier(own.crushed_s, fibre.yielded_s);
+                greater(&mut strains.concrete, fibre.deformation_min);
+                strains.crushed_s = earlier(strains.crushed_s, fibre.yielded_s);
             } else {
-                greater(&mut own.steel, fibre.deformation_max);
-                own.yielded_s = earlier(own.yielded_s, fibre.yielded_s);
+                greater(&mut strains.steel, fibre.deformation_max);
+                strains.yielded_s = earlier(strains.yielded_s, fibre.yielded_s);
             }
         }
         if concrete > 0 {
-            own.crushed_share = crushed as f64 / concrete as f64;
+            strains.crushed_share = crushed as f64 / concrete as f64;
         }
-        own
+        strains
     }
 }

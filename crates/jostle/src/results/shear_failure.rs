@@ -10,14 +10,14 @@ use crate::structure::{MemberEnd, SpringPlace};
 
 /// Columns of a building that failed; `None` if none can fail.
 pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureSummary> {
-    let own = &run.system.buildings[building];
-    let places = &own.discretization.spring_places;
+    let system_building = &run.system.buildings[building];
+    let places = &system_building.discretization.spring_places;
     if !places.iter().any(SpringPlace::is_shear) {
         return None;
     }
     let (mut list, mut columns, mut failed) = (Vec::new(), Vec::new(), Vec::new());
     let mut dissipated_j = 0.0;
-    for spring in springs_of(own, run.outcome) {
+    for spring in springs_of(system_building, run.outcome) {
         let Some(&SpringPlace::Shear { storey, line, end }) = places.get(spring.index) else {
             continue;
         };
@@ -31,14 +31,14 @@ pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureS
         if !failed.contains(&(storey, line)) {
             failed.push((storey, line));
         }
-        let global = own.spring_offset + spring.index;
+        let global = system_building.spring_offset + spring.index;
         let memory = &run.outcome.state.springs[global];
-        let rule = &own.equations.springs[spring.index].hysteresis;
+        let rule = &system_building.equations.springs[spring.index].hysteresis;
         let Some([failure, _]) = rule.failure_corners(memory) else {
             continue;
         };
         list.push(ShearFailure {
-            column: format!("{}.column.{line}.{storey}", own.name),
+            column: format!("{}.column.{line}.{storey}", system_building.name),
             at: match end {
                 MemberEnd::First => "foot",
                 MemberEnd::Last => "head",

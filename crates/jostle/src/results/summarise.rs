@@ -159,8 +159,8 @@ impl Summary {
 fn building_summary(index: usize, run: &Run) -> BuildingSummary {
     let building = &run.system.buildings[index];
     let hinges = hinge_summary(building, run.outcome);
-    let own = floor_responses(index, building, run.outcome);
-    let response = building_response(index, building, run.outcome, &own, &hinges);
+    let responses = floor_responses(index, building, run.outcome);
+    let response = building_response(index, building, run.outcome, &responses, &hinges);
     let without = run.without_contact.map(|outcome| {
         let floors = floor_responses(index, building, outcome);
         let hinges = hinge_summary(building, outcome);
@@ -168,7 +168,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         (floors, response)
     });
     let without_contact = without.as_ref().map(|(_, response)| *response);
-    let floors = building.floors.iter().zip(own).enumerate();
+    let floors = building.floors.iter().zip(responses).enumerate();
     let floors = floors.map(|(k, (floor, response))| {
         let without_contact = without.as_ref().map(|(floors, _)| floors[k]);
         FloorSummary {
@@ -321,7 +321,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         .filter(|&contact| system.contacts[contact].gap == index)
         .collect();
     // Faces where buildings are in space, otherwise contacts.
-    let mut own: Vec<usize> = points
+    let mut faces: Vec<usize> = points
         .iter()
         .map(|&point| {
             system.contacts[point]
@@ -329,13 +329,13 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
                 .map_or(point, |place| place.face)
         })
         .collect();
-    own.dedup();
-    let mut counted: Vec<Vec<CountedImpact>> = own
+    faces.dedup();
+    let mut counted: Vec<Vec<CountedImpact>> = faces
         .iter()
         .map(|&contact| counted_impacts(contact, gap, run))
         .collect();
     let poundings = find_simultaneous(&mut counted);
-    let contacts: Vec<ContactSummary> = own
+    let contacts: Vec<ContactSummary> = faces
         .iter()
         .zip(&counted)
         .map(|(&contact, impacts)| contact_summary(contact, impacts, run))
@@ -343,7 +343,10 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
     let total = outcome.peaks.gap_force(index);
     // Contact that is no impact has a force as well.
-    let struck = total.value > 0.0 && counted.iter().any(|own| !own.is_empty());
+    let struck = total.value > 0.0
+        && counted
+            .iter()
+            .any(|counted_impact| !counted_impact.is_empty());
     let total = struck.then_some(total);
     GapSummary {
         between: names(gap.between, system),
@@ -397,8 +400,8 @@ fn floors_of(element: &LinkElement) -> [Option<usize>; 2] {
 
 fn link_summary(index: usize, run: &Run) -> LinkSummary {
     let (system, outcome, link) = (run.system, run.outcome, &run.model.links[index]);
-    let own = system.links.iter().enumerate();
-    let floors: Vec<LinkFloorSummary> = own
+    let links = system.links.iter().enumerate();
+    let floors: Vec<LinkFloorSummary> = links
         .zip(outcome.state.link_memories())
         .filter(|((_, element), _)| element.link == index)
         .map(|((place, element), memory)| {
@@ -455,8 +458,8 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
 }
 
 pub(super) fn counted_impacts(index: usize, gap: &Gap, run: &Run) -> Vec<CountedImpact> {
-    let own = impacts_of(run.system, run.outcome, index);
-    let mut impacts: Vec<&Impact> = own.iter().collect();
+    let gap_impacts = impacts_of(run.system, run.outcome, index);
+    let mut impacts: Vec<&Impact> = gap_impacts.iter().collect();
     sort_by(&mut impacts, |a, b| a.start.total_cmp(&b.start));
     counted(impacts, gap.minimum_separation)
 }
@@ -475,10 +478,10 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
     // Faces that are not parallel close from their nearest points on: those further apart close by more and do not touch.
     let closing = points.iter().map(|&point| {
         let further = system.contacts[point].width - width;
-        let own = outcome.peaks.closing(point);
+        let closing = outcome.peaks.closing(point);
         Extreme {
-            value: own.value - further,
-            ..own
+            value: closing.value - further,
+            ..closing
         }
     });
     let closing = closing.max_by(|a, b| a.value.total_cmp(&b.value));
@@ -628,9 +631,14 @@ fn warnings(run: &Run) -> Vec<String> {
     }
     let slides = |building: &crate::model::Building| {
         let isolation = building.base.isolation.as_ref();
-        isolation.is_some_and(|own| own.isolator.slides())
+        isolation.is_some_and(|isolation| isolation.isolator.slides())
     };
-    for building in run.model.buildings.iter().filter(|own| slides(own)) {
+    for building in run
+        .model
+        .buildings
+        .iter()
+        .filter(|building| slides(building))
+    {
         if run.motion.is_vertical() {
             warnings.push(format!(
                 "the normal force of the sliding bearings of \"{}\" stays its weight: vertical shaking does not change their friction here",

@@ -16,11 +16,11 @@ fn of_building(building: &Building) -> Option<String> {
         return None;
     };
     let beyond = ends_of_walls(tiers).into_iter().map(|(wall, floor, end)| {
-        let plan = tiers.floors.get(floor).map_or(&[][..], |own| &own.plan);
+        let plan = tiers.floors.get(floor).map_or(&[][..], |floor| &floor.plan);
         (wall, distance_beyond(plan, end))
     });
     let (wall, worst) = beyond
-        .filter(|own| own.1 > SLIGHT)
+        .filter(|beyond| beyond.1 > SLIGHT)
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(format!(
         "\"{}\": {wall} stands {worst:.2} m out of the plan of its floors, whose edge is the face in contact; give a plan that reaches to its end, or measure gaps from the edge of the plan",
@@ -46,13 +46,13 @@ fn ends_of_walls(tiers: &Tiers) -> Vec<(String, usize, PlanPoint)> {
             add(name, wall.storeys[0], frame.point(wall.line), half);
         }
     }
-    for own in &tiers.frames {
-        let lines = own.frame.line_positions();
-        for (index, wall) in own.frame.walls.iter().enumerate() {
+    for frame in &tiers.frames {
+        let lines = frame.frame.line_positions();
+        for (index, wall) in frame.frame.walls.iter().enumerate() {
             let along = lines.get(wall.line - 1).copied().unwrap_or(0.0);
-            let at = [0, 1].map(|axis| own.at[axis] + along * own.direction[axis]);
-            let half = own.direction.map(|part| 0.5 * wall.length * part);
-            let name = format!("wall {} of frame {}", index + 1, own.name);
+            let at = [0, 1].map(|axis| frame.at[axis] + along * frame.direction[axis]);
+            let half = frame.direction.map(|part| 0.5 * wall.length * part);
+            let name = format!("wall {} of frame {}", index + 1, frame.name);
             add(name, wall.storeys[0] - 1, at, half);
         }
     }

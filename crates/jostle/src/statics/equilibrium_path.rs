@@ -397,7 +397,7 @@ fn holding(building: &AssembledBuilding, dof: usize) -> f64 {
     let hold = equations.stiffness.diagonal[dof] + equations.undamped.diagonal[dof].abs();
     let springs = equations.springs.iter();
     let yielding: f64 = springs
-        .filter(|spring| spring.row.dofs().any(|own| own == dof))
+        .filter(|spring| spring.row.dofs().any(|candidate| candidate == dof))
         .map(|spring| spring.hysteresis.initial_tangent())
         .sum();
     hold + yielding

@@ -61,12 +61,12 @@ pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f6
             }
             let [a, b] = member.ends.map(|end| nodes[end]);
             let top = a.y.max(b.y);
-            let own = stick_model.turn(member.ends[0]);
+            let turn = stick_model.turn(member.ends[0]);
             let on_line = nodes.iter().zip(&hung).enumerate().filter(|(index, _)| {
                 // Faces of a wall are on the line of its axis.
                 let other = stick_model.turn(*index);
-                let apart = (other.position - own.position).abs();
-                apart < SAME_LINE && other.elevation == own.elevation
+                let apart = (other.position - turn.position).abs();
+                apart < SAME_LINE && other.elevation == turn.elevation
             });
             on_line
                 .filter(|(_, (node, _))| node.y > top - SAME_LINE)
@@ -178,7 +178,7 @@ fn lean_on_shear_springs(discretization: &mut Discretization) {
     let places = discretization.spring_places.iter();
     let mut places = places.filter(|place| place.is_shear());
     for spring in &mut sticks.springs {
-        let falls = |own: Hysteresis| own.falling_branch().is_some();
+        let falls = |hysteresis: Hysteresis| hysteresis.falling_branch().is_some();
         if !spring.hysteresis.is_some_and(falls) {
             continue;
         }
@@ -219,7 +219,7 @@ fn hung_on_nodes(
     let beams = beams.filter(|member| !member.is_vertical(nodes));
     let beams = beams.map(|member| stick_elements::of_member(member, nodes));
     let others = stick_model.elements.iter().map(ElementStiffness::from);
-    for (part, a, b, value) in beams.chain(others).flat_map(|own| own.entries) {
+    for (part, a, b, value) in beams.chain(others).flat_map(|beam| beam.entries) {
         if a.1 == Y && part != Part::Dashpot {
             // The member holds the node up with −K u.
             for (b, share) in element::places(&stick_model.carried(b)) {

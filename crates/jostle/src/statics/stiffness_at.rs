@@ -47,10 +47,10 @@ mod tests {
             ..crate::Model::default()
         };
         let system = System::assemble(&model).expect("a sound model");
-        let own = &system.buildings[0];
+        let building = &system.buildings[0];
         for (floor, due) in [3e7, 1.2e7, 1.0 / (1.0 / 1.2e7 + 1e-7)].iter().enumerate() {
-            let dof = own.alone().floor_dofs[floor];
-            let found = stiffness_at(own.alone(), &Row::single(dof)).expect("it stands");
+            let dof = building.alone().floor_dofs[floor];
+            let found = stiffness_at(building.alone(), &Row::single(dof)).expect("it stands");
             assert!((found / due - 1.0).abs() < 1e-12, "{floor}: {found}, {due}");
         }
     }

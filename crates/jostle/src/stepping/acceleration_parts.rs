@@ -65,9 +65,9 @@ impl AccelerationParts {
 
     /// Greatest difference from another run in any part that counts, over floors `first` to `first + count` \[m/s²\].
     pub(crate) fn change(&self, other: &Self, first: usize, count: usize) -> f64 {
-        let own = self.floors.iter().zip(&other.floors);
+        let floors = self.floors.iter().zip(&other.floors);
         let mut worst = 0.0_f64;
-        for (a, b) in own.skip(first).take(count) {
+        for (a, b) in floors.skip(first).take(count) {
             let greatest = a.iter().chain(b).fold(0.0, |most: f64, x| most.max(*x));
             for (a, b) in a.iter().zip(b) {
                 if a.max(*b) >= NEAR * greatest {

@@ -295,9 +295,9 @@ impl ContactEquations {
         self.units.clear();
         for (i, (closed, response)) in self.closed.iter().zip(&self.responses).enumerate() {
             if closed.forced(&self.links).is_some() {
-                let own = self.compliance.get(i, i);
-                self.roots.push(own.sqrt().recip());
-                self.units.push(response.by_indentation / own);
+                let compliance = self.compliance.get(i, i);
+                self.roots.push(compliance.sqrt().recip());
+                self.units.push(response.by_indentation / compliance);
                 continue;
             }
             let slope = response.by_indentation + closed.rate_gain * response.by_rate;

@@ -60,9 +60,9 @@ fn stored(system: &System, state: &State, grounds: &RunGrounds<'_>) -> Stored {
     let (displacement, velocity) = (&state.displacement, &state.velocity);
     let (mut kinetic, mut strain) = (0.0, 0.0);
     for building in &system.buildings {
-        let (equations, own) = (&building.equations, building.range());
-        kinetic += 0.5 * simd::wide_weighted_square(&equations.mass, &velocity[own.clone()]);
-        strain += 0.5 * equations.strain(&displacement[own]);
+        let (equations, range) = (&building.equations, building.range());
+        kinetic += 0.5 * simd::wide_weighted_square(&equations.mass, &velocity[range.clone()]);
+        strain += 0.5 * equations.strain(&displacement[range]);
     }
     let springs = system
         .buildings

@@ -96,7 +96,7 @@ fn work_of_links(system: &System) -> f64 {
         return 0.0;
     }
     let ports = system.links.iter().map(|link| &link.ports);
-    let graph = InterfaceGraph::new(ports, system.buildings.len(), |own| own);
+    let graph = InterfaceGraph::new(ports, system.buildings.len(), |building| building);
     let places: Vec<usize> = (0..system.links.len()).collect();
     let (mut stored, mut factor) = (0.0, 0.0);
     for (row, first) in graph.first_coupled(&places).enumerate() {

@@ -85,9 +85,15 @@ impl FaceForces {
         if self.current[face].is_some() {
             return;
         }
-        let last = self.impacts.iter_mut().rev().find(|own| own.face == face);
+        let last = self
+            .impacts
+            .iter_mut()
+            .rev()
+            .find(|impact| impact.face == face);
         match last {
-            Some(own) if own.start == instant && own.end == instant => own.centre = centre,
+            Some(impact) if impact.start == instant && impact.end == instant => {
+                impact.centre = centre
+            }
             _ => self.impacts.push(FaceImpact {
                 centre,
                 peak_force: Extreme {
@@ -111,10 +117,13 @@ impl FaceForces {
         let (mut points, mut rubbed) = (&closed[..], &friction[..]);
         self.closed.clear();
         while let Some(&ClosedPoint { face, .. }) = points.first() {
-            let own = points.iter().take_while(|own| own.face == face).count();
-            let rubbing = rubbed.iter().take_while(|(own, ..)| *own == face).count();
-            self.finish_face(face, &points[..own], &rubbed[..rubbing], [start, step]);
-            (points, rubbed) = (&points[own..], &rubbed[rubbing..]);
+            let touching = points.iter().take_while(|point| point.face == face).count();
+            let rubbing = rubbed
+                .iter()
+                .take_while(|(rubbed_face, ..)| *rubbed_face == face)
+                .count();
+            self.finish_face(face, &points[..touching], &rubbed[..rubbing], [start, step]);
+            (points, rubbed) = (&points[touching..], &rubbed[rubbing..]);
             self.closed.push(face);
         }
         for face in self.closed_before.drain(..) {
@@ -168,8 +177,8 @@ impl FaceForces {
                 moment[0] + force * closed.at[0],
                 moment[1] + force * closed.at[1],
             ];
-            if let Some(own) = impact.point_forces.get_mut(closed.point) {
-                *own = force;
+            if let Some(point_force) = impact.point_forces.get_mut(closed.point) {
+                *point_force = force;
             }
         }
         if sum > 0.0 {

@@ -37,30 +37,30 @@ pub(super) fn columns_of(
     floors: &[FloorPeaks],
 ) -> Vec<(Column, Peak)> {
     let tracks = building.tracks.iter().zip(floors).enumerate();
-    let of_track = tracks.map(|(place, (track, own))| {
+    let of_track = tracks.map(|(place, (track, peaks))| {
         let (owner, direction) = (floor_of(index, building, place), track.direction);
         let displacement = Peak {
-            greatest: own.displacement_max,
-            least: own.displacement_min,
+            greatest: peaks.displacement_max,
+            least: peaks.displacement_min,
         };
         [
             (Kind::Displacement, direction, displacement),
             (
                 Kind::Displacement,
                 Direction::Up,
-                Peak::of_size(own.vertical_displacement),
+                Peak::of_size(peaks.vertical_displacement),
             ),
             (
                 Kind::Acceleration,
                 direction,
-                Peak::of_size(own.total_acceleration),
+                Peak::of_size(peaks.total_acceleration),
             ),
-            (Kind::Drift, direction, Peak::of_size(own.storey_drift)),
-            (Kind::Shear, direction, Peak::of_size(own.storey_shear)),
+            (Kind::Drift, direction, Peak::of_size(peaks.storey_drift)),
+            (Kind::Shear, direction, Peak::of_size(peaks.storey_shear)),
             (
                 Kind::Moment,
                 direction,
-                Peak::of_size(own.overturning_moment),
+                Peak::of_size(peaks.overturning_moment),
             ),
         ]
         .map(|(kind, direction, peak)| (Column::new(owner, kind, direction), peak))
@@ -81,7 +81,7 @@ pub(super) fn columns_of_corners(
 }
 
 /// The floor of a building whose displacement stands at a place of its tracks.
-pub(super) fn floor_of(building: usize, own: &BuildingSystem, place: usize) -> Owner {
-    let floor = place % own.floors.len() + 1;
+pub(super) fn floor_of(building: usize, system: &BuildingSystem, place: usize) -> Owner {
+    let floor = place % system.floors.len() + 1;
     Owner::Floor { building, floor }
 }

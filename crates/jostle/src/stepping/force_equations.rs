@@ -72,9 +72,9 @@ impl ForceEquations {
         self.change.clear();
         for (row, closed) in closed.iter().enumerate() {
             let (indentation, rate) = self.pressed(row, closed);
-            let pressed = closed.friction.map(|own| self.forces[own.normal]);
+            let pressed = closed.friction.map(|friction| self.forces[friction.normal]);
             let response = match (&closed.friction, pressed) {
-                (Some(own), Some(pressed)) => own.respond(indentation, pressed),
+                (Some(friction), Some(pressed)) => friction.respond(indentation, pressed),
                 _ => closed.law.follow(indentation, rate, &closed.memory),
             };
             self.change.push(response.force - self.forces[row]);
@@ -85,12 +85,12 @@ impl ForceEquations {
                 self.matrix.set(row, column, slope + unit);
             }
             // Friction that slips follows the contact force.
-            if let (Some(own), Some(pressed)) = (&closed.friction, pressed)
+            if let (Some(friction), Some(pressed)) = (&closed.friction, pressed)
                 && response.by_indentation == 0.0
                 && pressed > 0.0
             {
-                let share = own.law.coefficient.copysign(response.force);
-                self.matrix.set(row, own.normal, -share);
+                let share = friction.law.coefficient.copysign(response.force);
+                self.matrix.set(row, friction.normal, -share);
             }
         }
     }

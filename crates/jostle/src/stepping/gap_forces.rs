@@ -34,14 +34,14 @@ pub(super) fn peak_of_sum(forces: &[StepForce], start: f64, step: f64) -> Extrem
             peak = Extreme { value, at };
         }
     };
-    let others = |own: usize| {
+    let others = |index: usize| {
         let others = forces.iter().enumerate();
-        others.filter(move |(other, _)| *other != own)
+        others.filter(move |(other, _)| *other != index)
     };
-    for (index, own) in forces.iter().enumerate() {
-        let fraction = (own.peak.at - start) / step;
+    for (index, step_force) in forces.iter().enumerate() {
+        let fraction = (step_force.peak.at - start) / step;
         let beside: f64 = others(index).map(|(_, force)| force.at(fraction)).sum();
-        consider(own.peak.value + beside, own.peak.at);
+        consider(step_force.peak.value + beside, step_force.peak.at);
     }
     let Some(first) = forces.first() else {
         return peak;
@@ -86,10 +86,10 @@ pub(super) fn peak_of_many(forces: &[StepForce], start: f64, step: f64) -> Extre
         let line = straight[0] + fraction * (straight[1] - straight[0]);
         line + smooth.map_or(0.0, |sum| sum.value(fraction))
     };
-    for own in forces {
-        let fraction = (own.peak.at - start) / step;
-        let beside = sum_at(fraction) - own.at(fraction);
-        consider(own.peak.value + beside, own.peak.at);
+    for force in forces {
+        let fraction = (force.peak.at - start) / step;
+        let beside = sum_at(fraction) - force.at(fraction);
+        consider(force.peak.value + beside, force.peak.at);
     }
     for (sum, at) in ends.into_iter().zip([start, start + step]) {
         consider(sum, at);
@@ -140,9 +140,9 @@ impl GapForces {
             if self.step[..index].iter().any(|(place, _)| place == gap) {
                 continue;
             }
-            let own = self.step.iter().filter(|(place, _)| place == gap);
+            let gap_forces = self.step.iter().filter(|(place, _)| place == gap);
             self.together.clear();
-            self.together.extend(own.map(|(_, force)| *force));
+            self.together.extend(gap_forces.map(|(_, force)| *force));
             let most = peak_of_sum(&self.together, start, step);
             if most.value > self.peaks[*gap].value {
                 self.peaks[*gap] = most;
@@ -158,11 +158,12 @@ impl GapForces {
         }
         let mut left = &self.step[..];
         while let Some((gap, _)) = left.first() {
-            let count = left.iter().take_while(|(own, _)| own == gap).count();
-            let (own, others) = left.split_at(count);
+            let count = left.iter().take_while(|(place, _)| place == gap).count();
+            let (gap_forces, others) = left.split_at(count);
             left = others;
             self.together.clear();
-            self.together.extend(own.iter().map(|(_, force)| *force));
+            self.together
+                .extend(gap_forces.iter().map(|(_, force)| *force));
             let most = peak_of_many(&self.together, start, step);
             if most.value > self.peaks[*gap].value {
                 self.peaks[*gap] = most;

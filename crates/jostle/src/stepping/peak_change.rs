@@ -101,23 +101,27 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         floors_before += building.tracks.len();
         for force in 0..3 {
             let sections = building.members.sections.iter();
-            let forms = sections.filter_map(|own| own.get(force).copied());
+            let forms = sections.filter_map(|section| section.get(force).copied());
             worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(rounding));
         }
         for kind in 0..MEMBER_FORCES {
             let members = building.members.members.iter();
             let forms = members.flat_map(|m| m.sections.iter().flat_map(MemberSection::by_kind));
-            let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
+            let forms = forms
+                .filter(|(candidate, _)| *candidate == kind)
+                .map(|(_, form)| form);
             worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(rounding));
         }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
     for gap in 0..gaps {
         let contacts = 0..system.contacts.len();
-        let own = contacts.filter(|contact| system.contacts[*contact].gap == gap);
-        let own: Vec<usize> = own.collect();
+        let contacts = contacts.filter(|contact| system.contacts[*contact].gap == gap);
+        let gap_contacts: Vec<usize> = contacts.collect();
         for of in [peak_force, impulse] {
-            let pairs = own.iter().map(|contact| [of(a, *contact), of(b, *contact)]);
+            let pairs = gap_contacts
+                .iter()
+                .map(|contact| [of(a, *contact), of(b, *contact)]);
             worst = worst.max(Change::of(pairs).relative_to(rounding));
         }
     }
@@ -140,16 +144,16 @@ pub(super) fn change_of_parts(system: &System, runs: [&Outcome; 2]) -> f64 {
 /// Forces and deformations of braces, of struts, of walls and of coupling beams, each kind with those that are measured alike and
 /// with what it is compared with.
 fn forms_of_parts(building: &BuildingSystem) -> [(Vec<usize>, Scale); 7] {
-    let own = &building.members;
+    let members = &building.members;
     let diagonals = &building.discretization.diagonals;
     let of_diagonals = |kind| {
-        let all = own.diagonals.iter();
-        let own = all.filter(|force| diagonals[force.diagonal].place.kind == kind);
-        own.map(|force| force.form).collect()
+        let all = members.diagonals.iter();
+        let diagonals = all.filter(|force| diagonals[force.diagonal].place.kind == kind);
+        diagonals.map(|force| force.form).collect()
     };
-    let of_walls = |form: fn(&WallForce) -> usize| own.walls.iter().map(form).collect();
+    let of_walls = |form: fn(&WallForce) -> usize| members.walls.iter().map(form).collect();
     let of_beams =
-        |form: fn(&CouplingForce) -> usize| own.coupling_beams.iter().map(form).collect();
+        |form: fn(&CouplingForce) -> usize| members.coupling_beams.iter().map(form).collect();
     let (force, length): (Scale, Scale) = (|all| all.force, |all| all.displacement);
     [
         (of_diagonals(DiagonalKind::Brace), force),
@@ -224,14 +228,14 @@ impl Change {
 fn alike(system: &System, [a, b]: [&Outcome; 2]) -> BTreeMap<Pool, Change> {
     let mut all: BTreeMap<Pool, Change> = BTreeMap::new();
     let linear = system.links.iter().all(|link| link.is_linear());
-    for (column, own) in a.peaks.iter() {
+    for (column, one) in a.peaks.iter() {
         let other = b.peaks.of(column);
         let Some(of_all) = measured_with(system, column, linear) else {
             continue;
         };
         let mut add = |pool, of: fn(&Peak) -> f64| {
             let change = all.entry(pool).or_default();
-            *change = change.and([of(&own), of(&other)]);
+            *change = change.and([of(&one), of(&other)]);
         };
         let pool = Pool::greatest(of_all);
         match (column.kind, column.owner) {
@@ -289,8 +293,8 @@ fn measured_with(system: &System, column: Column, linear: bool) -> Option<Column
             ))
         }
         Owner::Spring(spring) if kind == Kind::Force => {
-            let own = footing_of(system, spring)?;
-            Some(Column::along(Owner::Spring(own), kind))
+            let footing = footing_of(system, spring)?;
+            Some(Column::along(Owner::Spring(footing), kind))
         }
         Owner::Building(_) if along => Some(column),
         Owner::Support(_) if along && kind == Kind::Force => Some(column),
@@ -301,14 +305,16 @@ fn measured_with(system: &System, column: Column, linear: bool) -> Option<Column
 /// The first spring of the ground under the foundation, or the column, to which a spring belongs; `None` for other springs.
 fn footing_of(system: &System, spring: usize) -> Option<usize> {
     let mut buildings = system.buildings.iter();
-    let building = buildings.find(|own| own.spring_range().contains(&spring))?;
+    let building = buildings.find(|building| building.spring_range().contains(&spring))?;
     let places = &building.discretization.spring_places;
     let line = |place: &SpringPlace| match *place {
         SpringPlace::Footing { line, .. } => Some(line),
         _ => None,
     };
-    let own = line(places.get(spring - building.spring_offset)?)?;
-    let first = places.iter().position(|place| line(place) == Some(own))?;
+    let footing_line = line(places.get(spring - building.spring_offset)?)?;
+    let first = places
+        .iter()
+        .position(|place| line(place) == Some(footing_line))?;
     Some(building.spring_offset + first)
 }
 
@@ -350,8 +356,8 @@ fn least_scale(
 }
 
 pub(super) fn impacts(outcome: &Outcome, contact: usize) -> impl Iterator<Item = &Impact> {
-    let own = move |impact: &&Impact| impact.contact == contact;
-    outcome.impacts.iter().filter(own)
+    let at_contact = move |impact: &&Impact| impact.contact == contact;
+    outcome.impacts.iter().filter(at_contact)
 }
 
 fn peak_force(outcome: &Outcome, contact: usize) -> f64 {

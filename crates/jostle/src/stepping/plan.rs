@@ -474,9 +474,9 @@ fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
 /// What cannot be shaken vertically.
 fn refused_vertical(system: &System, analysis: &Analysis) -> Option<ModelFault> {
     // Columns that cannot shorten move nothing upwards in any case.
-    let floats = |own: &&BuildingSystem| {
-        let could = own.moves_vertically() || own.discretization.space_frame.is_some();
-        could && own.has_columns_in_plan() && own.rest.displacement.is_empty()
+    let floats = |system: &&BuildingSystem| {
+        let could = system.moves_vertically() || system.discretization.space_frame.is_some();
+        could && system.has_columns_in_plan() && system.rest.displacement.is_empty()
     };
     if let Some(building) = system.buildings.iter().find(floats) {
         return Some(ModelFault {
@@ -516,12 +516,12 @@ fn steps_of_components(motion: &GroundMotion) -> Option<ModelFault> {
         Wave::Sampled { step, .. } => Some(step),
         _ => None,
     };
-    let (own, across) = (step(motion)?, step(motion.across()?)?);
-    let ratio = own.max(across) / own.min(across);
+    let (along, across) = (step(motion)?, step(motion.across()?)?);
+    let ratio = along.max(across) / along.min(across);
     ((ratio - ratio.round()).abs() > 1e-9 * ratio).then(|| ModelFault {
         path: "motion.across".into(),
         problem: format!(
-            "has points every {across} s, the record every {own} s; one must be a multiple of the other, so resample one of them"
+            "has points every {across} s, the record every {along} s; one must be a multiple of the other, so resample one of them"
         ),
     })
 }

@@ -54,14 +54,15 @@ impl PlanDrifts {
     pub(super) fn before_step(&mut self, u: &[f64], v: &[f64]) {
         self.before.clear();
         let storeys = self.storeys.iter();
-        self.before.extend(storeys.map(|own| own.motion(u, v)));
+        self.before
+            .extend(storeys.map(|storey| storey.motion(u, v)));
     }
 
     /// Takes in a step \[s\] that ends with displacements and velocities.
     pub(super) fn after_step(&mut self, u: &[f64], v: &[f64], step: f64) {
-        for (own, then) in self.storeys.iter_mut().zip(&self.before) {
-            let now = own.motion(u, v);
-            own.take(*then, now, step);
+        for (storey, then) in self.storeys.iter_mut().zip(&self.before) {
+            let now = storey.motion(u, v);
+            storey.take(*then, now, step);
         }
     }
 
@@ -69,9 +70,9 @@ impl PlanDrifts {
     pub(super) fn give_to(&self, mut give: impl FnMut(usize, f64)) {
         let n = self.storeys.len();
         let storeys = self.storeys.iter().enumerate();
-        for (index, own) in storeys.filter(|(_, own)| !own.storey.is_in_line()) {
-            for (block, most) in own.centre.iter().enumerate() {
-                give(block * n + index, most / own.storey.height);
+        for (index, drifts) in storeys.filter(|(_, drifts)| !drifts.storey.is_in_line()) {
+            for (block, most) in drifts.centre.iter().enumerate() {
+                give(block * n + index, most / drifts.storey.height);
             }
         }
     }
@@ -79,7 +80,7 @@ impl PlanDrifts {
     /// Greatest drift ratio of a corner of every storey, both directions combined.
     pub(super) fn corners(&self) -> impl Iterator<Item = f64> + '_ {
         let storeys = self.storeys.iter();
-        storeys.map(|own| own.corner.sqrt() / own.storey.height)
+        storeys.map(|storey| storey.corner.sqrt() / storey.storey.height)
     }
 }
 

@@ -33,9 +33,9 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
     if system.is_in_space() {
         columns.push(Column::GROUND_ACCELERATION.across());
     }
-    for (building, own) in system.structures().iter().enumerate() {
-        let floors = own.floors.len();
-        let tracks = own.tracks.iter().enumerate();
+    for (building, structure) in system.structures().iter().enumerate() {
+        let floors = structure.floors.len();
+        let tracks = structure.tracks.iter().enumerate();
         columns.extend(tracks.flat_map(|(place, track)| {
             Column::motion(building, place % floors + 1, track.direction)
         }));
@@ -52,12 +52,12 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
     let followed = system.links_followed.iter();
     columns
         .extend(followed.flat_map(|&link| [Column::link_stroke(link), Column::link_speed(link)]));
-    for (building, own) in system.buildings.iter().enumerate() {
-        if own.support.is_some() {
+    for (building, building_system) in system.buildings.iter().enumerate() {
+        if building_system.support.is_some() {
             columns.extend(Column::motion(building, 0, Direction::Along));
             columns.push(Column::support_force(building));
         }
-        if own.mat_in_plan.is_some() {
+        if building_system.mat_in_plan.is_some() {
             columns.extend(Column::motion(building, 0, Direction::Across));
             columns.push(Column::support_force(building).across());
             columns.extend(Column::motion(building, 0, Direction::Turning));
@@ -80,7 +80,7 @@ impl Recorder {
     pub(crate) fn new(system: &System, grounds: &RunGrounds<'_>, settings: Settings) -> Self {
         let (interval, storage) = (settings.record_interval, settings.storage);
         let springs = system.buildings.iter();
-        let springs: usize = springs.map(|own| own.equations.springs.len()).sum();
+        let springs: usize = springs.map(|spring| spring.equations.springs.len()).sum();
         Self {
             history: interval.map(|_| History::kept_in(storage, columns(system, grounds))),
             springs: interval
@@ -177,8 +177,8 @@ impl Recorder {
                 let [moved, ..] = grounds.closing(index, 0);
                 put(contact.ports.closing(&state.displacement) + moved);
             });
-        let own = links.iter().take(system.model_links().len());
-        own.for_each(|force| put(*force));
+        let links = links.iter().take(system.model_links().len());
+        links.for_each(|force| put(*force));
         for link in &system.links_followed {
             let link = &system.links[*link];
             put(link.shortening(&state.displacement));
@@ -189,8 +189,8 @@ impl Recorder {
                 put(state.displacement[support.dof]);
                 put(state.velocity[support.dof]);
                 let [along, across] = support.direction;
-                let own = ground.of(index);
-                let moved = along * own[0] + across * own[1];
+                let ground_acceleration = ground.of(index);
+                let moved = along * ground_acceleration[0] + across * ground_acceleration[1];
                 put(state.acceleration[support.dof] + moved);
                 put(building.support_force(state));
             }

@@ -75,7 +75,9 @@ fn sensitive_from(
     let yields = |building: &BuildingSystem| {
         !building.equations.springs.is_empty() && plan.solver != Solver::Series
     };
-    let error = outcome.accuracy.map_or(tolerance, |own| own.residual);
+    let error = outcome
+        .accuracy
+        .map_or(tolerance, |accuracy| accuracy.residual);
     let (wider, narrower) = (
         error.min(CHANGE * tolerance),
         (NARROWER * error).clamp(LEAST_NARROWER * tolerance, tolerance),

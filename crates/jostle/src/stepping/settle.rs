@@ -21,12 +21,12 @@ impl ContactEquations {
         for round in 1..=ROUNDS {
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
             for i in 0..n {
-                let own = self.compliance.get(i, i);
+                let compliance = self.compliance.get(i, i);
                 let others = self
                     .compliance
                     .times(i, |j| if j == i { 0.0 } else { self.closed[j].force });
                 let before = self.closed[i].force;
-                settle_one(&mut self.closed[i], &self.links, own, others);
+                settle_one(&mut self.closed[i], &self.links, compliance, others);
                 let force = self.closed[i].force;
                 change = change.max((force - before).abs());
                 greatest = greatest.max(force.abs());

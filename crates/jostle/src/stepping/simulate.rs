@@ -128,7 +128,9 @@ pub(super) fn simulate_like(
                 return modal::simulate_as(refined, system, motion, plan, shapes, observer);
             }
             match modal::Reduction::new(system, plan) {
-                Ok(own) => modal::simulate_as(refined, system, motion, plan, &own, observer),
+                Ok(reduction) => {
+                    modal::simulate_as(refined, system, motion, plan, &reduction, observer)
+                }
                 Err(error) => Outcome::not_begun(system, error),
             }
         }

@@ -244,12 +244,12 @@ mod tests {
     /// A face that slips 0.5 mm further and comes back by 0.2 mm within a step sticks with 300 N, 200 N less than μF.
     #[test]
     fn a_slip_that_turns_within_a_step_is_kept() {
-        let mut own = friction(0.0);
+        let mut face = friction(0.0);
         // It turns at 0.53 of the step.
         let slip = |share: f64| 1e-3 - 0.2e-3 * ((share - 0.53) / 0.47).powi(2);
-        let path = own.follow(500.0, |share| [slip(share), 1e3]);
+        let path = face.follow(500.0, |share| [slip(share), 1e3]);
         assert!((path.end() - 300.0).abs() < 1e-9, "{path:?}");
-        assert!((own.respond(slip(1.0), 1e3).force - 300.0).abs() < 1e-9);
+        assert!((face.respond(slip(1.0), 1e3).force - 300.0).abs() < 1e-9);
         // From the start of the step it would still slip.
         assert_eq!(friction(0.0).respond(slip(1.0), 1e3).force, 500.0);
     }

@@ -26,12 +26,12 @@ pub(super) struct SpringTotals {
 
 /// Links, for the list of peaks of their run.
 pub(super) fn columns_of_links(links: &[LinkTotals]) -> impl Iterator<Item = (Column, Peak)> {
-    links.iter().enumerate().flat_map(|(link, own)| {
+    links.iter().enumerate().flat_map(|(link, totals)| {
         let peaks = [
-            (Kind::Force, own.peak_force.into()),
-            (Kind::Stroke, Peak::of_size(own.peak_shortening)),
-            (Kind::Speed, Peak::of_size(own.peak_rate)),
-            (Kind::Work, Peak::of_size(own.work)),
+            (Kind::Force, totals.peak_force.into()),
+            (Kind::Stroke, Peak::of_size(totals.peak_shortening)),
+            (Kind::Speed, Peak::of_size(totals.peak_rate)),
+            (Kind::Work, Peak::of_size(totals.work)),
         ];
         peaks.map(|(kind, peak)| (Column::along(Owner::Link(link), kind), peak))
     })
@@ -39,8 +39,8 @@ pub(super) fn columns_of_links(links: &[LinkTotals]) -> impl Iterator<Item = (Co
 
 /// Springs, for the list of peaks of their run.
 pub(super) fn columns_of_springs(springs: &[SpringTotals]) -> impl Iterator<Item = (Column, Peak)> {
-    springs.iter().enumerate().flat_map(|(spring, own)| {
-        let peaks = [(Kind::Force, own.peak_force), (Kind::Work, own.work)];
+    springs.iter().enumerate().flat_map(|(spring, totals)| {
+        let peaks = [(Kind::Force, totals.peak_force), (Kind::Work, totals.work)];
         peaks.map(|(kind, value)| {
             let column = Column::along(Owner::Spring(spring), kind);
             (column, Peak::of_size(value))

@@ -58,7 +58,7 @@ impl StickModel {
     pub(super) fn add_fibres(
         &mut self,
         joint: usize,
-        own: &ColumnFibres,
+        fibres: &ColumnFibres,
         [storey, line]: [usize; 2],
         end: MemberEnd,
     ) -> (usize, FibreSection) {
@@ -79,21 +79,21 @@ impl StickModel {
         };
         let between =
             |component| over_nodes([((upper, component), 1.0), ((lower, component), -1.0)]);
-        let section = self.add_section(own, member, end, between(Y), vec![between(THETA)]);
+        let section = self.add_section(fibres, member, end, between(Y), vec![between(THETA)]);
         (node, section)
     }
 
     /// Adds fibres over an elongation and the rotations beside it: each is a spring over v + Σ x θ.
     pub(super) fn add_section(
         &mut self,
-        own: &ColumnFibres,
+        fibres: &ColumnFibres,
         member: MemberPlace,
         end: MemberEnd,
         elongation: Row,
         rotations: Vec<Row>,
     ) -> FibreSection {
         let first = self.yielding.len();
-        self.yielding.extend(own.fibres.iter().map(|fibre| {
+        self.yielding.extend(fibres.fibres.iter().map(|fibre| {
             let mut row = elongation.clone();
             for (rotation, at) in rotations.iter().zip(fibre.at) {
                 row.add_times(at, rotation);
@@ -107,9 +107,9 @@ impl StickModel {
         FibreSection {
             member,
             end,
-            length: own.length,
-            fibres: own.fibres.clone(),
-            limits: own.limits.clone(),
+            length: fibres.length,
+            fibres: fibres.fibres.clone(),
+            limits: fibres.limits.clone(),
             elements: first..self.yielding.len(),
             elongation,
             rotations,
@@ -122,8 +122,14 @@ impl Discretization {
     #[must_use]
     pub fn springs_of_section(&self, section: &FibreSection) -> Range<usize> {
         let sticks = &self.stick_model;
-        let hinges = sticks.hinges.iter().filter(|own| own.hysteresis.is_some());
-        let storeys = sticks.springs.iter().filter(|own| own.hysteresis.is_some());
+        let hinges = sticks
+            .hinges
+            .iter()
+            .filter(|hinge| hinge.hysteresis.is_some());
+        let storeys = sticks
+            .springs
+            .iter()
+            .filter(|spring| spring.hysteresis.is_some());
         let before = hinges.count() + storeys.count();
         before + section.elements.start..before + section.elements.end
     }

@@ -39,17 +39,17 @@ pub struct FrameDiagonal {
 
 impl FrameDiagonal {
     /// Of a building that is one frame.
-    pub(super) fn new(own: &Diagonal, ends: [usize; 2], elongation: Row) -> Self {
+    pub(super) fn new(diagonal: &Diagonal, ends: [usize; 2], elongation: Row) -> Self {
         Self {
             frame: None,
-            place: own.place,
+            place: diagonal.place,
             ends,
             direction: [1.0, 0.0],
-            stiffness: own.stiffness,
-            spring: own.hysteresis,
-            across: own.across,
+            stiffness: diagonal.stiffness,
+            spring: diagonal.hysteresis,
+            across: diagonal.across,
             between_joints: elongation.clone(),
-            damage: own.damage,
+            damage: diagonal.damage,
             elongation,
         }
     }
@@ -73,9 +73,9 @@ impl Discretization {
         joints: &[Vec<Option<usize>>],
         columns: &BTreeMap<FramePlace, Vec<usize>>,
     ) {
-        for own in diagonals {
-            let [lower, upper] = own.place.lines();
-            let storey = own.place.storey;
+        for diagonal in diagonals {
+            let [lower, upper] = diagonal.place.lines();
+            let storey = diagonal.place.storey;
             // Diagonals without a joint are faults of the model.
             let (Some(from), Some(to)) = (joints[storey - 1][lower], joints[storey][upper]) else {
                 continue;
@@ -87,7 +87,10 @@ impl Discretization {
                 let off = |node: &&usize| (sticks.nodes[**node].y - height).abs();
                 nodes.min_by(|a, b| off(a).total_cmp(&off(b))).copied()
             };
-            let ends = [(from, lower, own.offsets[0]), (to, upper, -own.offsets[1])];
+            let ends = [
+                (from, lower, diagonal.offsets[0]),
+                (to, upper, -diagonal.offsets[1]),
+            ];
             let ends = ends.map(|(joint, line, above)| match above == 0.0 {
                 true => joint,
                 false => on_column(joint, line, above).unwrap_or(joint),
@@ -96,35 +99,35 @@ impl Discretization {
             let elongation = elongation(sticks, ends);
             self.add_diagonal(FrameDiagonal {
                 between_joints,
-                ..FrameDiagonal::new(own, ends, elongation)
+                ..FrameDiagonal::new(diagonal, ends, elongation)
             });
         }
     }
 
     /// The spring of a diagonal among those of the building; `None` if it has none.
-    pub(crate) fn spring_of_diagonal(&self, own: &FrameDiagonal) -> Option<usize> {
-        let place = SpringPlace::of_diagonal(own);
+    pub(crate) fn spring_of_diagonal(&self, diagonal: &FrameDiagonal) -> Option<usize> {
+        let place = SpringPlace::of_diagonal(diagonal);
         self.spring_places.iter().position(|known| *known == place)
     }
 
     /// Adds a diagonal and its spring.
-    pub(super) fn add_diagonal(&mut self, own: FrameDiagonal) {
-        match own.spring {
+    pub(super) fn add_diagonal(&mut self, diagonal: FrameDiagonal) {
+        match diagonal.spring {
             None => self.stick_model.elements.push(Element::Spring {
                 part: Part::Elastic,
-                stiffness: own.stiffness,
-                row: own.elongation.clone(),
+                stiffness: diagonal.stiffness,
+                row: diagonal.elongation.clone(),
             }),
             Some(hysteresis) => {
                 self.stick_model.yielding.push(YieldingElement {
-                    row: own.elongation.clone(),
+                    row: diagonal.elongation.clone(),
                     hysteresis,
                     proportional_damping: ProportionalDamping::None,
                 });
-                self.spring_places.push(SpringPlace::of_diagonal(&own));
+                self.spring_places.push(SpringPlace::of_diagonal(&diagonal));
             }
         }
-        self.diagonals.push(own);
+        self.diagonals.push(diagonal);
     }
 }
 

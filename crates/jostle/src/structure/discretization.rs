@@ -131,15 +131,19 @@ impl Discretization {
             ..
         } = &mut self.stick_model;
         // In the order of their places.
-        let hinges = hinges.iter_mut().filter(|own| own.hysteresis.is_some());
-        let hinges = hinges.map(|own| &mut own.proportional_damping);
-        let springs = springs.iter_mut().filter(|own| own.hysteresis.is_some());
-        let springs = springs.map(|own| &mut own.proportional_damping);
-        let others = yielding.iter_mut().map(|own| &mut own.proportional_damping);
+        let hinges = hinges.iter_mut().filter(|hinge| hinge.hysteresis.is_some());
+        let hinges = hinges.map(|hinge| &mut hinge.proportional_damping);
+        let springs = springs
+            .iter_mut()
+            .filter(|spring| spring.hysteresis.is_some());
+        let springs = springs.map(|spring| &mut spring.proportional_damping);
+        let others = yielding
+            .iter_mut()
+            .map(|yielding| &mut yielding.proportional_damping);
         let all = hinges.chain(springs).chain(others);
-        for (own, place) in all.zip(&self.spring_places) {
+        for (hinge, place) in all.zip(&self.spring_places) {
             if place.is_damped_with_structure() {
-                *own = asked;
+                *hinge = asked;
             }
         }
     }
@@ -433,7 +437,7 @@ impl StickModel {
             translational_stiffness: [
                 horizontal,
                 base.vertical_stiffness
-                    .map(|own| if base.uplift { 0.0 } else { own }),
+                    .map(|vertical_stiffness| if base.uplift { 0.0 } else { vertical_stiffness }),
             ],
             dashpots: [
                 base.horizontal_damping,
@@ -505,14 +509,14 @@ pub(super) fn discretize_frame(
             let mut ends = faces;
             let wall = frame.wall([storey, line]);
             let grid = wall.is_none().then_some(hinges);
-            let fibres = grid.and_then(|own| own.fibres.get(&[storey, line]));
-            let hinge = grid.and_then(|own| own.columns.get(storey)?.get(line));
+            let fibres = grid.and_then(|grid| grid.fibres.get(&[storey, line]));
+            let hinge = grid.and_then(|grid| grid.columns.get(storey)?.get(line));
             let hinge = hinge.filter(|_| fibres.is_none());
-            let shear = grid.and_then(|own| own.shear.get(storey)?.get(line));
+            let shear = grid.and_then(|grid| grid.shear.get(storey)?.get(line));
             let mut column = *column;
             // A wall slides at its foot alone.
-            let lowest = wall.filter(|own| own.storeys[0] == storey + 1);
-            if let Some(hysteresis) = lowest.and_then(|own| own.shear) {
+            let lowest = wall.filter(|wall| wall.storeys[0] == storey + 1);
+            if let Some(hysteresis) = lowest.and_then(|lowest| lowest.shear) {
                 ends[0] = stick_model.add_sliding(from, X, hysteresis);
                 column.shear_rigidity = None;
                 let (line, storey) = (line + 1, storey + 1);
@@ -520,11 +524,11 @@ pub(super) fn discretize_frame(
             }
             for end in [MemberEnd::First, MemberEnd::Last] {
                 let at_head = end == MemberEnd::Last;
-                let Some(own) = wall.and_then(|own| own.hinge_at(storey + 1, at_head)) else {
+                let Some(hinge) = wall.and_then(|wall| wall.hinge_at(storey + 1, at_head)) else {
                     continue;
                 };
                 let node = &mut ends[end as usize];
-                *node = stick_model.yielding(*node, own, end);
+                *node = stick_model.yielding(*node, hinge, end);
                 discretization.spring_places.push(SpringPlace::Column {
                     storey: storey + 1,
                     line: line + 1,
@@ -533,9 +537,9 @@ pub(super) fn discretize_frame(
             }
             for (joint, end) in [(faces[0], MemberEnd::First), (faces[1], MemberEnd::Last)] {
                 let node = &mut ends[end as usize];
-                if let Some(own) = fibres.filter(|own| own.at_ends[end as usize]) {
+                if let Some(fibres) = fibres.filter(|fibre| fibre.at_ends[end as usize]) {
                     let place = [storey + 1, line + 1];
-                    let (beyond, section) = stick_model.add_fibres(joint, own, place, end);
+                    let (beyond, section) = stick_model.add_fibres(joint, fibres, place, end);
                     *node = beyond;
                     row_places.extend(section.places());
                     discretization.sections.push(section);
@@ -623,7 +627,7 @@ pub(super) fn discretize_frame(
             ];
             let mut beam = *beam;
             let coupling = frame.coupling_beam([storey, bay]);
-            if let Some(hysteresis) = coupling.and_then(|own| own.shear) {
+            if let Some(hysteresis) = coupling.and_then(|coupling| coupling.shear) {
                 ends[0] = stick_model.add_sliding(ends[0], Y, hysteresis);
                 beam.shear_rigidity = None;
                 let (floor, span) = (storey + 1, bay + 1);
@@ -686,9 +690,9 @@ pub(super) fn discretize_frame(
     discretization.spring_places.append(&mut row_places);
     discretization.stick_model = stick_model;
     let walls = frame.walls.iter();
-    discretization.walls = walls.map(|own| InFrame::alone(own.clone())).collect();
+    discretization.walls = walls.map(|wall| InFrame::alone(wall.clone())).collect();
     let beams = frame.coupling_beams.iter();
-    discretization.coupling_beams = beams.map(|own| InFrame::alone(*own)).collect();
+    discretization.coupling_beams = beams.map(|beam| InFrame::alone(*beam)).collect();
     discretization.add_diagonals(&frame.diagonals, &all_joints, &on_columns);
     if let (Some(stiffness), true) = (base.vertical_stiffness, base.uplift) {
         discretization.let_feet_lift(&all_joints[0], stiffness);

@@ -210,7 +210,9 @@ impl ElementStiffness {
 impl FromIterator<Element> for ElementStiffness {
     fn from_iter<I: IntoIterator<Item = Element>>(elements: I) -> Self {
         let mut stiffness = Self::default();
-        elements.into_iter().for_each(|own| stiffness.add(&own));
+        elements
+            .into_iter()
+            .for_each(|element| stiffness.add(&element));
         stiffness
     }
 }

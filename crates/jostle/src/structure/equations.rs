@@ -209,7 +209,9 @@ impl Equations {
     /// Adds a share of a ground acceleration times these masses to loads, other than what it drives along the row.
     pub(crate) fn add_across_and_up(&self, share: f64, ground: Ground, loads: &mut [f64]) {
         let others = self.driven().into_iter().zip(ground).skip(1);
-        for (driven, component) in others.filter(|(own, c)| *c != 0.0 && !own.is_empty()) {
+        for (driven, component) in
+            others.filter(|(candidate, c)| *c != 0.0 && !candidate.is_empty())
+        {
             simd::add(loads, share * component, driven);
         }
     }
@@ -325,9 +327,9 @@ impl Equations {
 /// Springs that yield: those by themselves, then bearings in plan.
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
     let foundation = stick_model.foundation.as_ref();
-    let sway = foundation.and_then(|own| path.dof(own.node, X));
-    let single = stick_model.single_springs().map(|own| {
-        let row = stick_model.carried_row(&own.row);
+    let sway = foundation.and_then(|foundation| path.dof(foundation.node, X));
+    let single = stick_model.single_springs().map(|single_spring| {
+        let row = stick_model.carried_row(&single_spring.row);
         // What it pushes along x against the ground, or the foundation.
         let pushed = element::places(&row).map(|(place, share)| {
             let along = stick_model.influence(place).along;
@@ -337,8 +339,8 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
         YieldingSpring {
             in_base_shear: pushed.sum(),
             row: path.row(&row),
-            hysteresis: own.hysteresis,
-            damped_by_tangent: own.proportional_damping == ProportionalDamping::Tangent,
+            hysteresis: single_spring.hysteresis,
+            damped_by_tangent: single_spring.proportional_damping == ProportionalDamping::Tangent,
         }
     });
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {

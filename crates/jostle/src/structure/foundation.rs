@@ -57,9 +57,9 @@ impl Discretization {
             1 => first,
             _ => sticks.add_node(middle, 0.0),
         };
-        let own = &mut sticks.nodes[plate];
-        own.add_mass(foundation.mass);
-        *own = own.with_rotary_inertia(foundation.rotary_inertia);
+        let stick_node = &mut sticks.nodes[plate];
+        stick_node.add_mass(foundation.mass);
+        *stick_node = stick_node.with_rotary_inertia(foundation.rotary_inertia);
         let mut node = plate;
         if lifts && plate != first {
             // It rises about the centre of what it carries, with its own mass at its middle.
@@ -110,8 +110,9 @@ impl Discretization {
         });
         self.foot = Some(node);
         let middle = middle - centre;
-        let sinking =
-            |own: &BedSpring| over_nodes([((node, Y), 1.0), ((node, THETA), middle + own.at)]);
+        let sinking = |spring: &BedSpring| {
+            over_nodes([((node, Y), 1.0), ((node, THETA), middle + spring.at)])
+        };
         self.add_bed(foundation, under.bed.clone(), sinking);
         if under.vertical_damping > 0.0 {
             self.stick_model.elements.push(Element::Spring {
@@ -129,9 +130,10 @@ impl Discretization {
         bed: Vec<BedSpring>,
         rise: impl Fn(&BedSpring) -> Row,
     ) {
-        let bearing = foundation.uplift.and_then(|own| own.bearing);
+        let bearing = foundation.uplift.and_then(|uplift| uplift.bearing);
         for (index, spring) in bed.iter().enumerate() {
-            let strength = bearing.map(|own| [own.strength * spring.area, own.hardening]);
+            let strength =
+                bearing.map(|bearing| [bearing.strength * spring.area, bearing.hardening]);
             // What is not positive is a fault of the model.
             let Ok(hysteresis) = Hysteresis::ground(spring.stiffness, strength) else {
                 continue;
@@ -186,29 +188,33 @@ impl Discretization {
         let turning = (foundation.node, THETA);
         let raised = lifts.then_some(((foundation.node, Y), -1.0));
         for node in 0..ground {
-            let own = sticks.nodes[node];
-            let of_mass = alpha * own.mass;
-            if own.mass > 0.0 {
+            let stick_node = sticks.nodes[node];
+            let of_mass = alpha * stick_node.mass;
+            if stick_node.mass > 0.0 {
                 let place = (node, X);
                 sticks.add_dashpot(ground, &over_nodes([(place, 1.0)]), -of_mass);
-                if own.y > 0.0 {
-                    let relative = [(place, 1.0), ((foundation.node, X), -1.0), (turning, own.y)];
+                if stick_node.y > 0.0 {
+                    let relative = [
+                        (place, 1.0),
+                        ((foundation.node, X), -1.0),
+                        (turning, stick_node.y),
+                    ];
                     sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
                 // Floors of a shear building rise with their foundation alone, and it does not rise unless it can lift off.
-                let rises = own.support == Support::Free && node != foundation.node;
+                let rises = stick_node.support == Support::Free && node != foundation.node;
                 if rises || raised.is_some() {
                     sticks.add_dashpot(ground, &over_nodes([((node, Y), 1.0)]), -of_mass);
                 }
                 if rises {
-                    let lever = own.x - base.x;
+                    let lever = stick_node.x - base.x;
                     let relative = [((node, Y), 1.0), (turning, -lever)];
                     let relative = relative.into_iter().chain(raised);
                     sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
             }
-            if own.inertia[THETA] > 0.0 {
-                let of_inertia = alpha * own.inertia[THETA];
+            if stick_node.inertia[THETA] > 0.0 {
+                let of_inertia = alpha * stick_node.inertia[THETA];
                 let turned = over_nodes([((node, THETA), 1.0)]);
                 sticks.add_dashpot(ground, &turned, -of_inertia);
             }

@@ -32,8 +32,8 @@ impl<T> InFrame<T> {
 impl StickModel {
     /// A new node at the place of another, to which the same beams and walls belong.
     pub(super) fn add_beside(&mut self, node: usize) -> usize {
-        let own = self.nodes[node];
-        let new = self.add_node(own.x, own.y);
+        let model_node = self.nodes[node];
+        let new = self.add_node(model_node.x, model_node.y);
         if let Some(turn) = self.turns.get(&node).copied() {
             self.turns.insert(new, turn);
         }
@@ -93,9 +93,9 @@ impl StickModel {
 
     /// Lets the axis of a wall, or a joint, carry the mass at the end of a member beside it, and that of the member between both \[kg\].
     pub(super) fn carry_on_axis(&mut self, joint: usize, end: usize, between: f64) {
-        let own = &mut self.nodes[end];
-        let mass = own.mass;
-        own.add_mass(-mass);
+        let node = &mut self.nodes[end];
+        let mass = node.mass;
+        node.add_mass(-mass);
         self.nodes[joint].add_mass(mass + between);
     }
 
@@ -138,8 +138,8 @@ impl Discretization {
         else {
             return None;
         };
-        let own = self.member_at(frame.map(|number| number - 1), member)?;
-        let beams = &self.stick_model.members[own.elements.clone()];
+        let member = self.member_at(frame.map(|number| number - 1), member)?;
+        let beams = &self.stick_model.members[member.elements.clone()];
         let (first, last) = (beams.first()?, beams.last()?);
         let nodes = &self.stick_model.nodes;
         let length = nodes[last.ends[1]].x - nodes[first.ends[0]].x;
@@ -153,6 +153,6 @@ impl Discretization {
         place: MemberPlace,
     ) -> Option<&super::FrameMember> {
         let mut members = self.members.iter();
-        members.find(|own| own.frame == frame && own.place == place)
+        members.find(|member| member.frame == frame && member.place == place)
     }
 }

@@ -30,8 +30,8 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
     }
     yielding
         .map(|hinge| {
-            if let Some(own) = hinge.ends.iter().find_map(|end| in_space[*end]) {
-                return Some(own);
+            if let Some(space) = hinge.ends.iter().find_map(|end| in_space[*end]) {
+                return Some(space);
             }
             // The end that is not a joint has one member only; follow its segments from there.
             let ends = hinge.ends.iter();

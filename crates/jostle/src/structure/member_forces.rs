@@ -95,9 +95,9 @@ pub struct MemberSection {
 impl MemberSection {
     /// All its forces by their kind: 0 axial, 1 shear, 2 moment or torque.
     pub(crate) fn by_kind(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let own = self.forms.into_iter().enumerate();
+        let forms = self.forms.into_iter().enumerate();
         let across = self.across.into_iter().flatten();
-        own.chain([1, 2, 2].into_iter().zip(across))
+        forms.chain([1, 2, 2].into_iter().zip(across))
     }
 }
 
@@ -268,13 +268,13 @@ impl AssembledBuilding {
             diagonals,
             ..
         } = &self.discretization;
-        let own = &diagonals[diagonal];
+        let diagonal = &diagonals[diagonal];
         let mut form = LinearForm::default();
-        match self.discretization.spring_of_diagonal(own) {
-            Some(spring) if own.spring.is_some() => form.springs = Row::single(spring),
+        match self.discretization.spring_of_diagonal(diagonal) {
+            Some(spring) if diagonal.spring.is_some() => form.springs = Row::single(spring),
             _ => {
-                let elongation = stick_model.carried_row(&own.elongation);
-                form.displacement = self.equations.row(&elongation).times(own.stiffness);
+                let elongation = stick_model.carried_row(&diagonal.elongation);
+                form.displacement = self.equations.row(&elongation).times(diagonal.stiffness);
             }
         }
         form
@@ -299,7 +299,7 @@ impl MemberForces {
                 let fibres = springs.clone().zip(section.fibres.iter());
                 self.index_of(LinearForm {
                     springs: fibres
-                        .map(|(spring, own)| (spring, share(own.at)))
+                        .map(|(spring, fibre)| (spring, share(fibre.at)))
                         .collect(),
                     ..LinearForm::default()
                 })
@@ -384,24 +384,25 @@ impl MemberForces {
         for column in columns {
             let storeys_of = |[frame, line]: [usize; 2]| -> Vec<usize> {
                 let all = self.members.iter().enumerate();
-                let own = all.filter(|(_, member)| {
+                let members = all.filter(|(_, member)| {
                     let on_line = |place| matches!(place, MemberPlace::Column { line: on, .. } if on == line + 1);
                     member.frame == Some(frame) && on_line(member.place)
                 });
-                own.map(|(index, _)| index).collect()
+                members.map(|(index, _)| index).collect()
             };
             let [first, second] = column.lines.map(storeys_of);
             for (a, b) in first.into_iter().zip(second) {
                 for end in 0..2 {
-                    let [of_a, of_b] = [a, b].map(|own| self.members[own].sections[end].forms[0]);
+                    let [of_a, of_b] =
+                        [a, b].map(|member| self.members[member].sections[end].forms[0]);
                     let sum = self.forms[of_a].plus(&self.forms[of_b]);
                     self.forms.push(sum);
-                    for own in [a, b] {
-                        self.members[own].sections[end].forms[0] = self.forms.len() - 1;
+                    for member in [a, b] {
+                        self.members[member].sections[end].forms[0] = self.forms.len() - 1;
                     }
                 }
-                for own in [a, b] {
-                    self.members[own].shared = Some(column.name.clone());
+                for member in [a, b] {
+                    self.members[member].shared = Some(column.name.clone());
                 }
             }
         }
@@ -667,9 +668,9 @@ impl<'a> Cuts<'a> {
         let mut form = LinearForm::default();
         for (index, node) in stick_model.nodes.iter().enumerate() {
             // Faces of a wall are on the line of its axis.
-            let own = stick_model.turn(index);
-            let beside =
-                own.elevation != line.elevation || (own.position - line.position).abs() > SAME_LINE;
+            let turn = stick_model.turn(index);
+            let beside = turn.elevation != line.elevation
+                || (turn.position - line.position).abs() > SAME_LINE;
             if beside || node.y < top.y - SAME_LINE {
                 continue;
             }
@@ -712,9 +713,9 @@ impl<'a> Cuts<'a> {
             ..LinearForm::default()
         };
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            let own = stick_model.turn(index);
-            if (own.height - left.height).abs() > SAME_LINE
-                || own.position > left.position + SAME_LINE
+            let turn = stick_model.turn(index);
+            if (turn.height - left.height).abs() > SAME_LINE
+                || turn.position > left.position + SAME_LINE
             {
                 continue;
             }

@@ -47,12 +47,12 @@ impl StickModel {
     /// When a node is eliminated: as its builder says, or from where it stands.
     #[must_use]
     pub fn turn(&self, node: usize) -> Turn {
-        let own = &self.nodes[node];
+        let model_node = &self.nodes[node];
         self.turns.get(&node).copied().unwrap_or(Turn {
             stage: None,
-            height: own.y,
+            height: model_node.y,
             elevation: 0,
-            position: own.x,
+            position: model_node.x,
         })
     }
 }
@@ -201,10 +201,13 @@ mod tests {
         let mut sticks = StickModel::default();
         let nodes = [0.0, 3.0, 3.0, 6.0].map(|height| sticks.add_node(0.0, height));
         let [mat, floor, joint, roof] = nodes;
-        for (own, height) in [(mat, 0.0), (floor, 3.0), (roof, 6.0)] {
-            sticks.turns.insert(own, Turn::of_floor(height, 3.0));
+        for (node, height) in [(mat, 0.0), (floor, 3.0), (roof, 6.0)] {
+            sticks.turns.insert(node, Turn::of_floor(height, 3.0));
         }
-        let order: Vec<usize> = node_order(&sticks).into_iter().map(|own| own.1).collect();
+        let order: Vec<usize> = node_order(&sticks)
+            .into_iter()
+            .map(|node_order| node_order.1)
+            .collect();
         assert_eq!(order, [joint, mat, floor, roof]);
     }
 }

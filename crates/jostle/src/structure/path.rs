@@ -34,7 +34,8 @@ impl Path {
             let stands = |node: &usize| {
                 let carried = stick_model.ties.contains_key(&index_of((*node, Y)));
                 let mut springs = stick_model.springs.iter();
-                carried || springs.any(|own| own.lever.is_some() && own.ends.contains(node))
+                carried
+                    || springs.any(|spring| spring.lever.is_some() && spring.ends.contains(node))
             };
             let order = node_order(stick_model);
             let mut last = order.iter().enumerate();

@@ -35,7 +35,7 @@ impl PlanBase {
                 components
                     .into_iter()
                     .zip(shares)
-                    .filter(|own| own.1 != 0.0),
+                    .filter(|candidate| candidate.1 != 0.0),
             )
         });
         let [along, across, turned] = of_middle;
@@ -69,7 +69,7 @@ impl PlanBase {
 /// What sinks where floors lean towards it, by these arms.
 fn leant(rocking: usize, [along, across]: [f64; 2]) -> Row {
     let shares = [((rocking, X), -along), ((rocking, Y), -across)];
-    over_nodes(shares.into_iter().filter(|own| own.1 != 0.0))
+    over_nodes(shares.into_iter().filter(|share| share.1 != 0.0))
 }
 
 impl Discretization {
@@ -82,21 +82,30 @@ impl Discretization {
     ) {
         let directions = base.in_plan();
         let sticks = &mut self.stick_model;
-        let Some(own) = sticks.plan_base else { return };
-        let bed = base.foundation.filter(|_| own.rises).and_then(|plate| {
-            let vertical = base.vertical_stiffness?;
-            let uplift = plate.uplift?;
-            let rocking = directions.map(|own| own.rotational_stiffness.unwrap_or(0.0));
-            // What is not possible is found where the ground is.
-            let bed = plate.bed_in_plan(vertical, uplift.ground.is_none().then_some(rocking));
-            Some((plate, bed.ok()?))
-        });
-        if let Some(rocking) = own.rocking {
-            let springs = directions.map(|own| own.rotational_stiffness.unwrap_or(0.0));
-            let stiffness = springs.map(|own| if bed.is_some() { 0.0 } else { own });
+        let Some(plan_base) = sticks.plan_base else {
+            return;
+        };
+        let bed = base
+            .foundation
+            .filter(|_| plan_base.rises)
+            .and_then(|plate| {
+                let vertical = base.vertical_stiffness?;
+                let uplift = plate.uplift?;
+                let rocking =
+                    directions.map(|direction| direction.rotational_stiffness.unwrap_or(0.0));
+                // What is not possible is found where the ground is.
+                let bed = plate.bed_in_plan(vertical, uplift.ground.is_none().then_some(rocking));
+                Some((plate, bed.ok()?))
+            });
+        if let Some(rocking) = plan_base.rocking {
+            let springs = directions.map(|direction| direction.rotational_stiffness.unwrap_or(0.0));
+            let stiffness = springs.map(|spring| if bed.is_some() { 0.0 } else { spring });
             let springs = [
                 (Part::Undamped, stiffness),
-                (Part::Dashpot, directions.map(|own| own.rotational_damping)),
+                (
+                    Part::Dashpot,
+                    directions.map(|direction| direction.rotational_damping),
+                ),
             ];
             for (part, values) in springs {
                 let ends = [X, Y].map(|component| [(rocking, component), (ground, component)]);
@@ -108,14 +117,14 @@ impl Discretization {
                 sticks.elements.extend(springs);
             }
         }
-        if let Some(rise) = own.rise().filter(|_| base.vertical_damping > 0.0) {
+        if let Some(rise) = plan_base.rise().filter(|_| base.vertical_damping > 0.0) {
             sticks.elements.push(Element::Spring {
                 part: Part::Dashpot,
                 stiffness: base.vertical_damping,
                 row: rise,
             });
         }
-        let sways = directions.map(|own| own.horizontal_stiffness);
+        let sways = directions.map(|direction| direction.horizontal_stiffness);
         sticks.nodes[node].support = match (sways, base.torsional_stiffness) {
             ([None, None], None) => Support::Fixed,
             ([None, None], Some(_)) => Support::Turning,
@@ -135,16 +144,16 @@ impl Discretization {
         for (stiffness, part) in [(stiffness, Part::Undamped), (damping, Part::Dashpot)] {
             let springs = TierStorey {
                 stiffness,
-                centre: own.middle,
+                centre: plan_base.middle,
             };
             matrix.add_storey(std::slice::from_ref(footing), 0, &springs, part);
         }
         sticks.elements.extend(matrix.elements(ground, &[node]));
         sticks.uncouple_rocking();
         self.foot = Some(node);
-        if let (Some((plate, bed)), Some(rocking)) = (bed, own.rocking) {
+        if let (Some((plate, bed)), Some(rocking)) = (bed, plan_base.rocking) {
             self.add_bed(&plate, bed, |spring| {
-                own.risen(leant(rocking, [spring.at, spring.across]))
+                plan_base.risen(leant(rocking, [spring.at, spring.across]))
             });
         }
     }
@@ -152,7 +161,7 @@ impl Discretization {
     /// Lets floors that neither columns nor walls carry rise with the base as a rigid body, with their masses and loads \[kg, N\].
     pub(super) fn let_floors_rise(&mut self, carried: &[[f64; 2]]) {
         let sticks = &mut self.stick_model;
-        if !sticks.plan_base.is_some_and(|own| own.rises) {
+        if !sticks.plan_base.is_some_and(|plan_base| plan_base.rises) {
             return;
         }
         for (floor, [mass, load]) in carried.iter().enumerate() {
@@ -181,7 +190,7 @@ impl Discretization {
             .collect();
         let [x, y, turning] = [X, Y, THETA].map(|component| (base.footing, component));
         let carrier = [Some(base.footing), base.rocking];
-        let own = |node: usize, component: usize| over_nodes([((node, component), 1.0)]);
+        let over_nodes_of = |node: usize, component: usize| over_nodes([((node, component), 1.0)]);
         let mut dashpots = Vec::new();
         for (node, moving) in sticks.nodes.iter().enumerate() {
             let mut tops = heights.iter();
@@ -193,7 +202,7 @@ impl Discretization {
                     continue;
                 }
                 if carrier.contains(&Some(node)) {
-                    dashpots.push((-alpha * inertia, own(node, component)));
+                    dashpots.push((-alpha * inertia, over_nodes_of(node, component)));
                     continue;
                 }
                 let [along, across, turned] = moving.influence[component].horizontal();
@@ -213,7 +222,7 @@ impl Discretization {
                 let taken = rigid.into_iter().map(|(place, share)| (place, -share));
                 let relative = [((node, component), 1.0)].into_iter().chain(taken);
                 dashpots.push((alpha * inertia, over_nodes(relative)));
-                dashpots.push((-alpha * inertia, own(node, component)));
+                dashpots.push((-alpha * inertia, over_nodes_of(node, component)));
             }
         }
         let dashpots = dashpots.into_iter();
@@ -247,13 +256,17 @@ impl StickModel {
             return;
         }
         let [across, along] = area.second_moments.map(|moment| moment / area.area);
-        let mass = base.foundation.map_or(base.mass, |own| own.mass);
+        let mass = base
+            .foundation
+            .map_or(base.mass, |foundation| foundation.mass);
         let [along, across] = [along, across].map(|squared| mass * squared);
-        let along = base.foundation.map_or(along, |own| own.rotary_inertia);
+        let along = base
+            .foundation
+            .map_or(along, |foundation| foundation.rotary_inertia);
         let raised = if base.lifts() { mass } else { 0.0 };
         let rocking = self.add_leaning([along, across, raised]);
-        if let Some(own) = &mut self.plan_base {
-            own.rocking = Some(rocking);
+        if let Some(plan_base) = &mut self.plan_base {
+            plan_base.rocking = Some(rocking);
         }
         let deformed = self.elements.iter().map(|element| match element {
             Element::Spring {
@@ -282,7 +295,7 @@ impl StickModel {
     /// It comes after the roof, because it deforms every storey.
     fn add_leaning(&mut self, inertia: [f64; 3]) -> usize {
         let node = self.nodes.len();
-        let rises = self.plan_base.is_some_and(|own| own.rises);
+        let rises = self.plan_base.is_some_and(|plan_base| plan_base.rises);
         self.nodes.push(Node {
             inertia,
             influence: match rises {
@@ -294,7 +307,7 @@ impl StickModel {
                 false => Support::Swaying,
             })
         });
-        let top = self.nodes.iter().map(|own| own.y).fold(0.0, f64::max);
+        let top = self.nodes.iter().map(|node| node.y).fold(0.0, f64::max);
         let last = Turn {
             position: f64::INFINITY,
             ..Turn::of_floor(top, top)
@@ -305,7 +318,7 @@ impl StickModel {
 
     /// A deformation over displacements of floors, with what the rocking of the base moves them taken out.
     pub(super) fn without_rocking(&self, row: &Row) -> Row {
-        let Some(node) = self.plan_base.and_then(|own| own.rocking) else {
+        let Some(node) = self.plan_base.and_then(|plan_base| plan_base.rocking) else {
             return row.clone();
         };
         let nodes = &self.nodes;
@@ -316,8 +329,8 @@ impl StickModel {
             -shares.sum::<f64>()
         };
         let rocked = [
-            ((node, X), rocked(|own| own.along)),
-            ((node, Y), rocked(|own| own.across)),
+            ((node, X), rocked(|influence| influence.along)),
+            ((node, Y), rocked(|influence| influence.across)),
         ];
         let rocked = over_nodes(rocked.into_iter().filter(|(_, share)| *share != 0.0));
         let all = row.entries().iter().chain(rocked.entries());
@@ -327,7 +340,10 @@ impl StickModel {
     /// Lets a displacement of the point of the site at which it is rise with the rocking base as a rigid body, as far as it does not rise
     /// by itself.
     pub(super) fn note_rise(&mut self, place: Place, point: PlanPoint) {
-        if let Some(rise) = self.plan_base.and_then(|own| own.rise_at(point)) {
+        if let Some(rise) = self
+            .plan_base
+            .and_then(|plan_base| plan_base.rise_at(point))
+        {
             self.raised.insert(index_of(place), rise);
         }
     }
@@ -342,26 +358,33 @@ impl StickModel {
 
     /// Ties the rotation of a foot in a vertical plane along this direction to the rocking of the base.
     pub(super) fn turn_foot(&mut self, foot: usize, direction: [f64; 2]) {
-        if let Some(turned) = self.plan_base.and_then(|own| own.turn_in(direction)) {
+        if let Some(turned) = self
+            .plan_base
+            .and_then(|plan_base| plan_base.turn_in(direction))
+        {
             self.ties.insert(index_of((foot, THETA)), turned);
         }
     }
 
     /// Whether the base rocks.
     pub(super) fn rocks(&self) -> bool {
-        self.plan_base.is_some_and(|own| own.rocking.is_some())
+        self.plan_base
+            .is_some_and(|plan_base| plan_base.rocking.is_some())
     }
 
     /// Lets rocking along and across, and a rise, follow displacements that masses which rise with them do not couple: of the inertia
     /// M = L D Lᵀ the motions q = L⁻ᵀ q′ leave D.
     fn uncouple_rocking(&mut self) {
-        let Some((base, rocking)) = self.plan_base.and_then(|own| Some((own, own.rocking?))) else {
+        let Some((base, rocking)) = self
+            .plan_base
+            .and_then(|plan_base| Some((plan_base, plan_base.rocking?)))
+        else {
             return;
         };
         let mut coupled = [[0.0; 3]; 3];
-        for (node, own) in self.nodes.iter().enumerate() {
-            for (component, inertia) in own.inertia.into_iter().enumerate() {
-                if inertia == 0.0 || own.support == Support::Fixed {
+        for (node, stick_node) in self.nodes.iter().enumerate() {
+            for (component, inertia) in stick_node.inertia.into_iter().enumerate() {
+                if inertia == 0.0 || stick_node.support == Support::Fixed {
                     continue;
                 }
                 let row = self.carried((node, component));
@@ -391,8 +414,9 @@ impl StickModel {
         let shares = uncoupled(&coupled);
         let last = if base.rises { THETA } else { Y };
         for component in X..=last {
-            let own = (component..=last).map(|other| ((follows, other), shares[component][other]));
-            let row = over_nodes(own.filter(|(_, share)| *share != 0.0));
+            let pairs =
+                (component..=last).map(|other| ((follows, other), shares[component][other]));
+            let row = over_nodes(pairs.filter(|(_, share)| *share != 0.0));
             self.ties.insert(index_of((rocking, component)), row);
         }
         let ties = self.ties.iter();
@@ -422,8 +446,8 @@ fn uncoupled(lower: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     for column in 0..3 {
         for i in (0..=column).rev() {
             let below = (i + 1..=column).map(|k| factor[k][i] * shares[k][column]);
-            let own = if i == column { 1.0 } else { 0.0 };
-            shares[i][column] = own - below.sum::<f64>();
+            let unit = if i == column { 1.0 } else { 0.0 };
+            shares[i][column] = unit - below.sum::<f64>();
         }
     }
     shares

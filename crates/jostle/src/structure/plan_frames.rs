@@ -37,9 +37,9 @@ pub(super) fn add_frames(
     let shared = tiers.shared_columns();
     let (mut hinge_places, mut diagonal_places) = (Vec::new(), Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
-        let mut own = discretize(plan_frame, &plan_frame.frame);
+        let mut discretized = discretize(plan_frame, &plan_frame.frame);
         if carry_weight {
-            carry_floors(tiers, &shared, index, &mut own.stick_model);
+            carry_floors(tiers, &shared, index, &mut discretized.stick_model);
         }
         let mut without_columns = plan_frame.frame.clone();
         for column in without_columns.column_sections_mut() {
@@ -47,7 +47,11 @@ pub(super) fn add_frames(
         }
         let light = discretize(plan_frame, &without_columns).stick_model;
         let doubled: Vec<f64> = (0..plan_frame.column_lines())
-            .filter(|line| shared.iter().any(|own| own.lines[1] == [index, *line]))
+            .filter(|line| {
+                shared
+                    .iter()
+                    .any(|shared_column| shared_column.lines[1] == [index, *line])
+            })
             .map(|line| plan_frame.frame.spans.iter().take(line).sum())
             .collect();
         let place = Place {
@@ -55,33 +59,41 @@ pub(super) fn add_frames(
             elevation: index + 1,
             floors: &floors,
             lumped,
-            mat: mat.map(|(node, own)| (node, own.tier.centre)),
+            mat: mat.map(|(node, floor)| (node, floor.tier.centre)),
             doubled: &doubled,
             light: &light,
         };
-        let (hinges, diagonals) = own.stick_model.split_places(own.spring_places);
+        let (hinges, diagonals) = discretized
+            .stick_model
+            .split_places(discretized.spring_places);
         let in_frame = |place: SpringPlace| place.in_frame(index + 1);
         hinge_places.extend(hinges.into_iter().filter_map(in_frame));
         diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
         let first_node = sticks.nodes.len();
-        let elements = sticks.append(own.stick_model, &place);
+        let elements = sticks.append(discretized.stick_model, &place);
         let [along, across, _] = plan_frame.shares(plan_frame.at);
         let direction = [along, across];
-        let diagonals = own.diagonals.into_iter().map(|own| FrameDiagonal {
-            frame: Some(index),
-            ends: own.ends.map(|end| first_node + end),
-            direction,
-            elongation: own.elongation.moved_up(index_of((first_node, X))),
-            between_joints: own.between_joints.moved_up(index_of((first_node, X))),
-            ..own
-        });
+        let diagonals = discretized
+            .diagonals
+            .into_iter()
+            .map(|diagonal| FrameDiagonal {
+                frame: Some(index),
+                ends: diagonal.ends.map(|end| first_node + end),
+                direction,
+                elongation: diagonal.elongation.moved_up(index_of((first_node, X))),
+                between_joints: diagonal.between_joints.moved_up(index_of((first_node, X))),
+                ..diagonal
+            });
         discretization.diagonals.extend(diagonals);
-        let walls = own.walls.into_iter().map(|own| own.in_plan(index));
+        let walls = discretized
+            .walls
+            .into_iter()
+            .map(|wall| wall.in_plan(index));
         discretization.walls.extend(walls);
-        let beams = own.coupling_beams.into_iter();
-        let beams = beams.map(|own| own.in_plan(index));
+        let beams = discretized.coupling_beams.into_iter();
+        let beams = beams.map(|beam| beam.in_plan(index));
         discretization.coupling_beams.extend(beams);
-        let members = own.members.into_iter().map(|member| FrameMember {
+        let members = discretized.members.into_iter().map(|member| FrameMember {
             frame: Some(index),
             elements: elements.start + member.elements.start..elements.start + member.elements.end,
             ..member
@@ -94,7 +106,11 @@ pub(super) fn add_frames(
     let before = first_place..first_place;
     discretization.spring_places.splice(before, hinge_places);
     discretization.spring_places.extend(diagonal_places);
-    discretization.frames = tiers.frames.iter().map(|own| own.name.clone()).collect();
+    discretization.frames = tiers
+        .frames
+        .iter()
+        .map(|frame| frame.name.clone())
+        .collect();
     discretization.shared_columns = shared;
 }
 
@@ -105,20 +121,20 @@ fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
 /// Lets the joints of a frame carry the floors' own masses: every column that reaches a floor has an equal share. What frames carry by
 /// themselves, on beams and at joints, stands in them already.
 fn carry_floors(tiers: &Tiers, shared: &[SharedColumn], frame: usize, sticks: &mut StickModel) {
-    let is_doubled = |place: [usize; 2]| shared.iter().any(|own| own.lines[1] == place);
+    let is_doubled = |place: [usize; 2]| shared.iter().any(|column| column.lines[1] == place);
     let columns_of = |index: usize, storey: usize| {
-        let own = &tiers.frames[index].frame;
-        let reaches = move |line: &usize| own.has_joint(storey + 1, *line);
-        (0..own.lines()).filter(move |line| reaches(line) && !is_doubled([index, *line]))
+        let frame = &tiers.frames[index].frame;
+        let reaches = move |line: &usize| frame.has_joint(storey + 1, *line);
+        (0..frame.lines()).filter(move |line| reaches(line) && !is_doubled([index, *line]))
     };
-    let own = &tiers.frames[frame];
+    let tier_frame = &tiers.frames[frame];
     let mut height = 0.0;
-    for (storey, storey_height) in own.frame.storey_heights.iter().enumerate() {
+    for (storey, storey_height) in tier_frame.frame.storey_heights.iter().enumerate() {
         height += storey_height;
         let all = (0..tiers.frames.len()).map(|index| columns_of(index, storey).count());
         let share = tiers.floors[storey].mass / all.sum::<usize>() as f64;
         for line in columns_of(frame, storey) {
-            let along = own.frame.line_positions()[line];
+            let along = tier_frame.frame.line_positions()[line];
             // Joints come before what stands beside them beyond hinges.
             let mut nodes = sticks.nodes.iter_mut();
             let joint = nodes
@@ -175,10 +191,10 @@ impl StickModel {
         let faces: Vec<(usize, Row)> = faces.collect();
         self.ties.extend(faces.iter().cloned());
         self.rigid_ends
-            .extend(frame.rigid_ends.iter().map(|own| RigidEnd {
-                joint: nodes + own.joint,
-                member: members + own.member,
-                ..*own
+            .extend(frame.rigid_ends.iter().map(|rigid_end| RigidEnd {
+                joint: nodes + rigid_end.joint,
+                member: members + rigid_end.member,
+                ..*rigid_end
             }));
         let origin = place.plan_frame.at;
         let [along, across, _] = place.plan_frame.shares(origin);
@@ -204,34 +220,39 @@ impl StickModel {
                 // Its mass rises with the base.
                 node.support = Support::Free;
             }
-            let own = self.nodes.len();
+            let number = self.nodes.len();
             let at = [0, 1].map(|axis| origin[axis] + node.x * direction[axis]);
-            self.turns.insert(own, turn);
+            self.turns.insert(number, turn);
             self.nodes.push(node);
-            self.note_rise((own, Y), at);
-            feet.extend(foot.then_some(own));
+            self.note_rise((number, Y), at);
+            feet.extend(foot.then_some(number));
         }
         let moved = |ends: [usize; 2]| ends.map(|end| nodes + end);
         self.members
-            .extend(frame.members.into_iter().map(|mut own| {
-                own.ends = moved(own.ends);
-                own
+            .extend(frame.members.into_iter().map(|mut member| {
+                member.ends = moved(member.ends);
+                member
             }));
-        self.hinges.extend(frame.hinges.into_iter().map(|mut own| {
-            own.ends = moved(own.ends);
-            own
-        }));
+        self.hinges
+            .extend(frame.hinges.into_iter().map(|mut hinge| {
+                hinge.ends = moved(hinge.ends);
+                hinge
+            }));
         self.springs
-            .extend(frame.springs.into_iter().map(|mut own| {
-                own.ends = moved(own.ends);
-                own
+            .extend(frame.springs.into_iter().map(|mut spring| {
+                spring.ends = moved(spring.ends);
+                spring
             }));
-        self.elements
-            .extend(frame.elements.into_iter().map(|own| own.moved_up(before)));
+        self.elements.extend(
+            frame
+                .elements
+                .into_iter()
+                .map(|element| element.moved_up(before)),
+        );
         self.yielding
-            .extend(frame.yielding.into_iter().map(|mut own| {
-                own.row = own.row.moved_up(before);
-                own
+            .extend(frame.yielding.into_iter().map(|mut yielding| {
+                yielding.row = yielding.row.moved_up(before);
+                yielding
             }));
         if self.rocks() {
             for component in [Y, THETA] {
@@ -282,7 +303,7 @@ impl StickModel {
             up: 0.0,
         };
         let is_counted_elsewhere = carrier.is_some() || on_floor || is_doubled;
-        let own = Node {
+        let node = Node {
             mass: match is_counted_elsewhere {
                 true => 0.0,
                 false => node.mass,
@@ -299,6 +320,6 @@ impl StickModel {
             influence: [in_line, Influence::UP, Influence::NONE],
             ..*node
         };
-        (own, carrier)
+        (node, carrier)
     }
 }

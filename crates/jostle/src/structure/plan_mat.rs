@@ -31,8 +31,8 @@ pub(super) fn put_on_mat(
     let stages = isolator.stages(weight);
     let (elastic, slider) = match (stages, isolator.yielding(weight)) {
         (Some((stages, elastic)), _) => {
-            let stages = stages.map(|own| own.of_share(share));
-            let least = stages.iter().map(|own| own.friction);
+            let stages = stages.map(|stage| stage.of_share(share));
+            let least = stages.iter().map(|stage| stage.friction);
             let least = least.fold(f64::INFINITY, f64::min);
             let law = CircularLaw::Pendulums(stages);
             let rows = Hysteresis::in_plan(law, share * elastic, least);
@@ -40,7 +40,7 @@ pub(super) fn put_on_mat(
         }
         (None, None) => (stiffness, None),
         (None, Some([strength, second, _])) => {
-            let own = [stiffness - second, strength].map(|value| share * value);
+            let properties = [stiffness - second, strength].map(|value| share * value);
             let law = match *isolator {
                 Isolator::Pendulum { friction, .. } if !friction.is_constant() => {
                     CircularLaw::Friction {
@@ -55,7 +55,7 @@ pub(super) fn put_on_mat(
                 | Isolator::DoublePendulum { .. }
                 | Isolator::TriplePendulum { .. } => CircularLaw::Slider,
             };
-            let rows = Hysteresis::in_plan(law, own[0], own[1]);
+            let rows = Hysteresis::in_plan(law, properties[0], properties[1]);
             (second, rows.ok())
         }
     };
@@ -112,7 +112,7 @@ impl Discretization {
             return;
         };
         let nodes = &self.stick_model.nodes;
-        let Some(ground) = nodes.iter().position(|own| own.support == Support::Fixed) else {
+        let Some(ground) = nodes.iter().position(|node| node.support == Support::Fixed) else {
             return;
         };
         let point = |node: usize, centre: PlanPoint| {
@@ -124,13 +124,13 @@ impl Discretization {
             })
         };
         let mut elements = Vec::new();
-        let own = point(mat.node, mat.centre);
+        let mat_floor = point(mat.node, mat.centre);
         let moved = |node: usize, centre: PlanPoint, factor: f64| TierStorey {
             stiffness: nodes[node].inertia.map(|inertia| factor * inertia),
             centre,
         };
         for (&floor, &centre) in self.floors.iter().zip(&self.centres) {
-            let pair = [own.clone(), point(floor, centre)];
+            let pair = [mat_floor.clone(), point(floor, centre)];
             let mut matrix = PlanMatrix::new(6);
             matrix.add_storey(&pair, 1, &moved(floor, centre, alpha), Part::Dashpot);
             elements.extend(matrix.elements(ground, &[mat.node, floor]));
@@ -140,7 +140,7 @@ impl Discretization {
         }
         let mut alone = PlanMatrix::new(3);
         let of_mat = moved(mat.node, mat.centre, -alpha);
-        alone.add_storey(&[own], 0, &of_mat, Part::Dashpot);
+        alone.add_storey(&[mat_floor], 0, &of_mat, Part::Dashpot);
         elements.extend(alone.elements(ground, &[mat.node]));
         elements.extend(self.between_floors_relative_to_mat(&mat, ground, alpha));
         self.stick_model.elements.extend(elements);
@@ -163,16 +163,19 @@ impl Discretization {
         };
         let heights = self.floors.iter().map(|floor| sticks.nodes[*floor].y);
         let heights: Vec<f64> = heights.collect();
-        for (node, own) in sticks.nodes.iter().enumerate() {
-            let (value, is_floor) = (alpha * own.inertia[X], own.influence == Influence::OF_FLOOR);
+        for (node, stick_node) in sticks.nodes.iter().enumerate() {
+            let (value, is_floor) = (
+                alpha * stick_node.inertia[X],
+                stick_node.influence == Influence::OF_FLOOR,
+            );
             let level = heights
                 .iter()
-                .position(|top| own.y <= top + LEVEL_TOLERANCE);
+                .position(|top| stick_node.y <= top + LEVEL_TOLERANCE);
             let (Some(level), false) = (level, is_floor || value == 0.0) else {
                 continue;
             };
             // About the centre of the mat instead of that of the floor.
-            let [along, across, turning] = own.influence[X].horizontal();
+            let [along, across, turning] = stick_node.influence[X].horizontal();
             let [x, y] = [0, 1].map(|axis| self.centres[level][axis] - mat.centre[axis]);
             let shares = [along, across, turning + x * across - y * along];
             let sum: f64 = shares.iter().sum();

@@ -47,8 +47,8 @@ impl PlanMatrix {
 
     /// Adds a lower triangle over all displacements.
     pub(super) fn add_triangle(&mut self, triangle: &[Vec<f64>], part: Part) {
-        for (row, own) in self.rows.iter_mut().zip(triangle) {
-            for (entry, value) in row.iter_mut().zip(own) {
+        for (row, triangle) in self.rows.iter_mut().zip(triangle) {
+            for (entry, value) in row.iter_mut().zip(triangle) {
                 entry[part as usize] += value;
             }
         }
@@ -72,8 +72,8 @@ impl PlanMatrix {
         let carried = |row: usize, component: usize| -> f64 {
             let of_floor = floors.iter().enumerate().map(|(index, floor)| {
                 let moved = motion_at(floor.tier.centre, mat.tier.centre);
-                let own = (0..3).map(|r| at(row, 3 * index + r) * moved[r][component]);
-                own.sum::<f64>()
+                let products = (0..3).map(|r| at(row, 3 * index + r) * moved[r][component]);
+                products.sum::<f64>()
             });
             of_floor.sum()
         };
@@ -84,17 +84,18 @@ impl PlanMatrix {
             for other in 0..=component {
                 let terms = floors.iter().enumerate().map(|(index, floor)| {
                     let moved = motion_at(floor.tier.centre, mat.tier.centre);
-                    let own = (0..3).map(|r| moved[r][component] * taken[3 * index + r][other]);
-                    own.sum::<f64>()
+                    let products =
+                        (0..3).map(|r| moved[r][component] * taken[3 * index + r][other]);
+                    products.sum::<f64>()
                 });
                 self.rows[component][other][part as usize] += terms.sum::<f64>();
             }
         }
-        for (row, own) in triangle.iter().enumerate() {
+        for (row, triangle) in triangle.iter().enumerate() {
             for (component, value) in taken[row].iter().enumerate() {
                 self.rows[3 + row][component][part as usize] -= value;
             }
-            for (column, value) in own.iter().enumerate() {
+            for (column, value) in triangle.iter().enumerate() {
                 self.rows[3 + row][3 + column][part as usize] += value;
             }
         }

@@ -105,10 +105,13 @@ impl End {
     }
 
     /// The end beyond hinges or fibres.
-    fn beyond(mut self, own: EndUnknowns) -> Self {
+    fn beyond(mut self, unknowns: EndUnknowns) -> Self {
         let [about_x, about_y, _] = &mut self.turned;
-        for (to, own) in [&mut self.moved[2], about_x, about_y].into_iter().zip(own) {
-            if let Some(number) = own {
+        for (to, unknown) in [&mut self.moved[2], about_x, about_y]
+            .into_iter()
+            .zip(unknowns)
+        {
+            if let Some(number) = unknown {
                 *to = vec![(Unknown::End(number), 1.0)];
             }
         }
@@ -139,38 +142,40 @@ impl Joints {
             let storey = member.place.storey();
             let is_column = matches!(member.place, SpacePlace::Column { .. });
             for crossing in member.place.crossings() {
-                let own = storey * per_floor + place(crossing);
-                reached[own] = true;
+                let joint_index = storey * per_floor + place(crossing);
+                reached[joint_index] = true;
                 if is_column {
-                    if let Some(below) = own.checked_sub(per_floor) {
+                    if let Some(below) = joint_index.checked_sub(per_floor) {
                         reached[below] = true;
                     }
-                    rigid[own] = member.section.axial_rigidity.is_none();
+                    rigid[joint_index] = member.section.axial_rigidity.is_none();
                 }
             }
         }
         let mut order: Vec<usize> = (0..per_floor).collect();
         if lines_x > lines_y {
-            sort_by_key(&mut order, |own| (own % lines_x, own / lines_x));
+            sort_by_key(&mut order, |crossing| {
+                (crossing % lines_x, crossing / lines_x)
+            });
         }
         let mut unknowns: Vec<Option<JointUnknowns>> = vec![None; floors * per_floor];
         let mut count = 0;
         for floor in 0..floors {
             for crossing in &order {
-                let own = floor * per_floor + crossing;
-                if !reached[own] {
+                let joint_index = floor * per_floor + crossing;
+                if !reached[joint_index] {
                     continue;
                 }
                 let mut next = || {
                     count += 1;
                     Some(count - 1)
                 };
-                let rise = match (rigid[own], own.checked_sub(per_floor)) {
+                let rise = match (rigid[joint_index], joint_index.checked_sub(per_floor)) {
                     (false, _) => next(),
                     (true, Some(below)) => unknowns[below].and_then(|joint| joint[0]),
                     (true, None) => None,
                 };
-                unknowns[own] = Some([rise, next(), next()]);
+                unknowns[joint_index] = Some([rise, next(), next()]);
             }
         }
         Self {
@@ -209,8 +214,9 @@ impl SpringMember {
     fn springs(&self) -> impl Iterator<Item = Spring> + '_ {
         let single = |(k, d): &(f64, Deformation)| Spring::Single(*k, d.clone());
         let bending = |(k, d): &([f64; 2], [Deformation; 2])| Spring::Bending(*k, d.clone());
-        let own = self.axial.iter().map(single);
-        own.chain(std::iter::once(single(&self.torsion)))
+        let axial = self.axial.iter().map(single);
+        axial
+            .chain(std::iter::once(single(&self.torsion)))
             .chain(std::iter::once(bending(&self.bending)))
             .chain(self.across.iter().map(bending))
     }
@@ -234,18 +240,18 @@ fn add(to: &mut Deformation, share: f64, of: &Deformation) {
 
 /// The difference of two, times a factor.
 fn difference(factor: f64, last: &Deformation, first: &Deformation) -> Deformation {
-    let mut own = Deformation::new();
-    add(&mut own, factor, last);
-    add(&mut own, -factor, first);
-    own
+    let mut deformation = Deformation::new();
+    add(&mut deformation, factor, last);
+    add(&mut deformation, -factor, first);
+    deformation
 }
 
 /// Rotation of one end against the chord: `slope` times its rotation, minus the difference of displacements over the length.
 fn chord_rotation(slope: f64, turned: &Deformation, chord: &Deformation) -> Deformation {
-    let mut own = Deformation::new();
-    add(&mut own, slope, turned);
-    add(&mut own, -1.0, chord);
-    own
+    let mut deformation = Deformation::new();
+    add(&mut deformation, slope, turned);
+    add(&mut deformation, -1.0, chord);
+    deformation
 }
 
 /// The frame between the ground or a mat and floors with these centres \[m\].
@@ -344,12 +350,12 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// A member as springs. `own`: what its first and last end have beyond hinges or fibres.
+    /// A member as springs. `unknowns`: what its first and last end have beyond hinges or fibres.
     pub(super) fn springs(
         &self,
         place: SpacePlace,
         section: &SpaceSection,
-        own: [EndUnknowns; 2],
+        unknowns: [EndUnknowns; 2],
     ) -> SpringMember {
         let storey = place.storey();
         let [first, last] = place.crossings();
@@ -368,7 +374,7 @@ impl<'a> Assembly<'a> {
             arm[axis] = length;
             arm
         };
-        let [first, last] = own;
+        let [first, last] = unknowns;
         let [a, b] = ends;
         let [a, b] = &[
             a.at(arm(rigid[0])).beyond(first),
@@ -385,8 +391,8 @@ impl<'a> Assembly<'a> {
         SpringMember {
             length,
             axial: stretch.map(|rigidity| {
-                let own = difference(1.0, &b.moved[2], &a.moved[2]);
-                (rigidity / length, own)
+                let difference = difference(1.0, &b.moved[2], &a.moved[2]);
+                (rigidity / length, difference)
             }),
             torsion: (
                 section.torsional_rigidity / length,
@@ -410,13 +416,13 @@ impl<'a> Assembly<'a> {
         let [from, to] = crossings.map(|[x, y]| [self.frame.lines_x[x], self.frame.lines_y[y]]);
         let way = [to[0] - from[0], to[1] - from[1], self.heights[level]];
         let length = libm::hypot(libm::hypot(way[0], way[1]), way[2]);
-        let mut own = Deformation::new();
+        let mut deformation = Deformation::new();
         for (axis, part) in way.into_iter().enumerate() {
             if part != 0.0 {
-                own.extend(difference(part / length, &b.moved[axis], &a.moved[axis]));
+                deformation.extend(difference(part / length, &b.moved[axis], &a.moved[axis]));
             }
         }
-        own
+        deformation
     }
 
     /// K_jj, factorised, and columns of −K_jf replaced by those of R. `None` if joints move without resistance.
@@ -438,9 +444,9 @@ impl<'a> Assembly<'a> {
             (Unknown::Joint(a), Unknown::Floor(b)) => sides[b][a] -= value,
             _ => {}
         });
-        let before: Vec<f64> = (0..n).map(|own| matrix.get(own, own)).collect();
+        let before: Vec<f64> = (0..n).map(|row| matrix.get(row, row)).collect();
         matrix.factorize();
-        let holds = |own: usize| matrix.get(own, own) > LEAST_PIVOT * before[own];
+        let holds = |index: usize| matrix.get(index, index) > LEAST_PIVOT * before[index];
         if !(0..n).all(holds) {
             return None;
         }
@@ -465,7 +471,7 @@ fn for_each_pair(springs: &[Spring], mut take: impl FnMut(Unknown, Unknown, f64)
     };
     for spring in springs {
         match spring {
-            Spring::Single(k, own) => product(*k, own, own),
+            Spring::Single(k, single) => product(*k, single, single),
             Spring::Bending([near, far], [first, last]) => {
                 product(*near, first, first);
                 product(*near, last, last);
@@ -505,16 +511,17 @@ pub(super) fn condense(
         .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2]))
         .collect();
     let diagonals = frame.diagonals.iter();
-    let diagonals = diagonals.map(|own| (own.stiffness, assembly.elongation(own.place)));
+    let diagonals =
+        diagonals.map(|diagonal| (diagonal.stiffness, assembly.elongation(diagonal.place)));
     let diagonals: Vec<(f64, Deformation)> = diagonals.collect();
     let all = springs.iter().flat_map(SpringMember::springs);
     let all = all.chain(diagonals.iter().map(|(k, d)| Spring::Single(*k, d.clone())));
     let motions = assembly.joint_motions(&all.collect::<Vec<_>>())?;
     let order = 3 * assembly.centres.len();
     // D in the axes of the site.
-    let row = |own: &Deformation| -> Vec<f64> {
+    let row = |deformation: &Deformation| -> Vec<f64> {
         let mut row = vec![0.0; order];
-        for (unknown, share) in own {
+        for (unknown, share) in deformation {
             match unknown {
                 Unknown::Floor(floor) => row[*floor] += share,
                 Unknown::Joint(joint) => {
@@ -544,25 +551,25 @@ pub(super) fn condense(
         heights.push(heights[heights.len() - 1] + storey);
     }
     let mut members = Vec::with_capacity(springs.len());
-    for (member, own) in frame.members.iter().zip(&springs) {
+    for (member, spring) in frame.members.iter().zip(&springs) {
         let mut single = |k: f64, deformation: &Deformation| {
             let deformation = row(deformation);
             let force: Vec<f64> = deformation.iter().map(|d| k * d).collect();
             add_product(&force, &deformation);
             force
         };
-        let axial = match &own.axial {
+        let axial = match &spring.axial {
             Some((k, stretch)) => single(*k, stretch),
             None => vec![0.0; order],
         };
-        let torsion = single(own.torsion.0, &own.torsion.1);
-        let is_column = own.across.is_some();
+        let torsion = single(spring.torsion.0, &spring.torsion.1);
+        let is_column = spring.across.is_some();
         // Slopes at both ends against the chord, and the moments that go with them.
         let mut bend = |([near, far], rotations): &([f64; 2], [Deformation; 2])| {
             let [a, b] = rotations.each_ref().map(&row);
-            let moment = |own: &[f64], other: &[f64]| -> Vec<f64> {
-                let both = own.iter().zip(other);
-                both.map(|(own, other)| near * own + far * other).collect()
+            let moment = |one: &[f64], other: &[f64]| -> Vec<f64> {
+                let both = one.iter().zip(other);
+                both.map(|(one, other)| near * one + far * other).collect()
             };
             let (first, last) = (moment(&a, &b), moment(&b, &a));
             add_product(&first, &a);
@@ -570,15 +577,15 @@ pub(super) fn condense(
             let sign = if is_column { 1.0 } else { -1.0 };
             let sum = first.iter().zip(&last);
             Bending {
-                shear: sum.map(|(a, b)| -sign * (a + b) / own.length).collect(),
+                shear: sum.map(|(a, b)| -sign * (a + b) / spring.length).collect(),
                 moments: [
                     first.iter().map(|value| sign * value).collect(),
                     last.iter().map(|value| -sign * value).collect(),
                 ],
             }
         };
-        let bending = bend(&own.bending);
-        let across = own.across.as_ref().map(&mut bend);
+        let bending = bend(&spring.bending);
+        let across = spring.across.as_ref().map(&mut bend);
         let storey = member.place.storey();
         members.push(CondensedMember {
             place: member.place,
@@ -595,17 +602,17 @@ pub(super) fn condense(
     let mut elongations = Vec::with_capacity(diagonals.len());
     for (k, deformation) in &diagonals {
         let elongation = row(deformation);
-        let tension: Vec<f64> = elongation.iter().map(|own| k * own).collect();
+        let tension: Vec<f64> = elongation.iter().map(|elongation| k * elongation).collect();
         add_product(&tension, &elongation);
         elongations.push(elongation);
     }
-    let own = CondensedFrame {
+    let frame = CondensedFrame {
         joints: joint_rows(&assembly, &row),
         members: carried_by_columns(&assembly, members, &elongations),
     };
     Some(Condensed {
         stiffness,
-        frame: own,
+        frame,
         elongations,
     })
 }
@@ -616,15 +623,15 @@ impl Assembly<'_> {
         let [_, line] = place.crossings();
         let floor = place.storey() + 1;
         let ends = self.frame.diagonals.iter().enumerate();
-        let ends = ends.filter_map(|(index, own)| {
-            let [lower, upper] = own.place.crossings()?;
+        let ends = ends.filter_map(|(index, diagonal)| {
+            let [lower, upper] = diagonal.place.crossings()?;
             let sign = match (lower == line, upper == line) {
-                (true, _) if own.place.storey == floor + 1 => 1.0,
-                (_, true) if own.place.storey == floor => -1.0,
+                (true, _) if diagonal.place.storey == floor + 1 => 1.0,
+                (_, true) if diagonal.place.storey == floor => -1.0,
                 _ => return None,
             };
-            let bay = self.frame.bays(own.place.line?.along)[own.place.bay - 1];
-            let rise = self.heights[own.place.storey - 1];
+            let bay = self.frame.bays(diagonal.place.line?.along)[diagonal.place.bay - 1];
+            let rise = self.heights[diagonal.place.storey - 1];
             Some((index, sign * rise / libm::hypot(bay, rise)))
         });
         ends.collect()
@@ -637,11 +644,11 @@ fn joint_rows(
 ) -> Vec<CondensedJoint> {
     let joints = &assembly.joints;
     let all = joints.unknowns.iter().enumerate();
-    let own = all.filter_map(|(at, unknowns)| {
+    let joints = all.filter_map(|(at, unknowns)| {
         let (floor, crossing) = (at / joints.per_floor, at % joints.per_floor);
         let rows = (*unknowns)?.map(|unknown| {
-            let own = unknown.map(|index| (Unknown::Joint(index), 1.0));
-            row(&own.into_iter().collect())
+            let term = unknown.map(|index| (Unknown::Joint(index), 1.0));
+            row(&term.into_iter().collect())
         });
         Some(CondensedJoint {
             crossing: [crossing % joints.lines_x, crossing / joints.lines_x],
@@ -649,7 +656,7 @@ fn joint_rows(
             rows,
         })
     });
-    own.collect()
+    joints.collect()
 }
 
 /// Completes the axial forces of columns that keep their length, by vertical equilibrium of the joints from the top down: a column
@@ -676,9 +683,9 @@ fn carried_by_columns(
         for other in &members {
             let (sign, force) = match other.place {
                 SpacePlace::Column {
-                    line: own,
+                    line: place,
                     storey: above,
-                } if own == line && above == storey + 1 => (1.0, &other.axial),
+                } if place == line && above == storey + 1 => (1.0, &other.axial),
                 SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. }
                     if other.place.storey() == storey =>
                 {

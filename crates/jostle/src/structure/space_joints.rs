@@ -118,8 +118,8 @@ pub(super) fn add_space_joints(
         }
     }
     let joints = builder.joint_list(frame);
-    let elongations = frame.diagonals.iter().map(|own| {
-        let elongation = builder.assembly.elongation(own.place);
+    let elongations = frame.diagonals.iter().map(|diagonal| {
+        let elongation = builder.assembly.elongation(diagonal.place);
         builder.over_nodes(&elongation, frame.direction)
     });
     let elongations = elongations.collect();
@@ -219,16 +219,16 @@ impl StickModel {
         motion: usize,
         height: f64,
     ) -> Option<usize> {
-        let rocking = self.plan_base.and_then(|own| own.rocking)?;
+        let rocking = self.plan_base.and_then(|plan_base| plan_base.rocking)?;
         let [c, s] = assembly.frame.direction;
         let rocked = assembly.rocked(crossing);
-        let shares = rocked[motion].iter().flat_map(|own| {
-            let shares = match own.0 {
+        let shares = rocked[motion].iter().flat_map(|term| {
+            let shares = match term.0 {
                 Unknown::Rocking(direction) => rocked_on_site(direction, [c, s]),
                 _ => [0.0; 3],
             };
             let places = [X, Y, THETA].map(|component| (rocking, component));
-            places.into_iter().zip(shares.map(|share| share * own.1))
+            places.into_iter().zip(shares.map(|share| share * term.1))
         });
         let row = over_nodes(shares.filter(|(_, share)| *share != 0.0)).merged();
         let node = self.add_turning(Stage::Joints, self.nodes.len(), height);
@@ -267,24 +267,24 @@ impl Builder<'_> {
             self.add_hinges(member, plane, &mut ends);
         }
         self.add_fibres(member.place, &mut ends);
-        let own = self.assembly.springs(member.place, &member.section, ends);
+        let springs = self.assembly.springs(member.place, &member.section, ends);
         let SpringMember {
             length,
             axial,
             torsion,
             bending,
             across,
-        } = own;
-        let row = |own: &Deformation| self.over_nodes(own, direction);
-        let single = |(stiffness, own): &(f64, Deformation)| Element::Spring {
+        } = springs;
+        let row = |deformation: &Deformation| self.over_nodes(deformation, direction);
+        let single = |(stiffness, deformation): &(f64, Deformation)| Element::Spring {
             part: Part::Elastic,
             stiffness: *stiffness,
-            row: row(own),
+            row: row(deformation),
         };
-        let bend = |([own, other], ends): &([f64; 2], [Deformation; 2])| Element::Matrix {
+        let bend = |([one, other], ends): &([f64; 2], [Deformation; 2])| Element::Matrix {
             part: Part::Elastic,
             rows: ends.iter().map(row).collect(),
-            lower: vec![*own, *other, *own],
+            lower: vec![*one, *other, *one],
         };
         let diagonals = match (member.place, &axial) {
             (SpacePlace::Column { .. }, None) => self.assembly.diagonals_at_head(member.place),
@@ -342,11 +342,11 @@ impl Builder<'_> {
 
     /// Adds the ends of a column beyond its fibres, and these.
     fn add_fibres(&mut self, place: SpacePlace, ends: &mut [EndUnknowns; 2]) {
-        let Some(own) = self.assembly.frame.fibres.get(&place) else {
+        let Some(fibre) = self.assembly.frame.fibres.get(&place) else {
             return;
         };
         for end in [MemberEnd::First, MemberEnd::Last] {
-            if !own.at_ends[end as usize] {
+            if !fibre.at_ends[end as usize] {
                 continue;
             }
             // What is above moves away from what is below.
@@ -361,7 +361,7 @@ impl Builder<'_> {
             // A turn about x lifts what lies further across, one about y lowers what lies further along.
             let rotations = vec![about_y.times(-1.0), about_x];
             let member = MemberPlace::InSpace(place);
-            let section = self.sticks.add_section(own, member, end, rise, rotations);
+            let section = self.sticks.add_section(fibre, member, end, rise, rotations);
             self.sections.push(section);
         }
     }
@@ -382,7 +382,7 @@ impl Builder<'_> {
         let crossing = place.crossings()[end as usize];
         let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[motion]);
         let moving = self.assembly.moving(floor);
-        let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
+        let at = self.sticks.nodes[moving.map_or(self.ground, |moving| self.moving[moving])];
         let joint = match joint {
             Some(unknown) => self.joints.start + unknown,
             None => {
@@ -399,23 +399,26 @@ impl Builder<'_> {
     }
 
     /// A deformation over displacements of nodes; those of floors are along the axes of the site.
-    fn over_nodes(&self, own: &Deformation, [c, s]: [f64; 2]) -> Row {
-        let mut list = Vec::with_capacity(own.len() + 2);
+    fn over_nodes(&self, deformation: &Deformation, [c, s]: [f64; 2]) -> Row {
+        let mut list = Vec::with_capacity(deformation.len() + 2);
         let mut add =
             |place: Place, share: f64| match list.iter_mut().find(|(known, _)| *known == place) {
                 Some((_, sum)) => *sum += share,
                 None => list.push((place, share)),
             };
-        for (unknown, share) in own {
+        for (unknown, share) in deformation {
             match *unknown {
                 Unknown::Joint(index) => add((self.joints.start + index, THETA), *share),
                 Unknown::End(index) => add((self.ends[index], THETA), *share),
                 Unknown::Rocking(direction) => {
-                    let rocking = self.sticks.plan_base.and_then(|own| own.rocking);
+                    let rocking = self
+                        .sticks
+                        .plan_base
+                        .and_then(|plan_base| plan_base.rocking);
                     let shares = rocked_on_site(direction, [c, s]);
-                    for (component, own) in [X, Y, THETA].into_iter().zip(shares) {
+                    for (component, component_share) in [X, Y, THETA].into_iter().zip(shares) {
                         if let Some(node) = rocking {
-                            add((node, component), own * share);
+                            add((node, component), component_share * share);
                         }
                     }
                 }
@@ -442,14 +445,14 @@ impl Builder<'_> {
         let joints = &self.assembly.joints;
         let lines_x = frame.lines_x.len();
         let all = joints.unknowns.iter().enumerate();
-        let own = all.filter_map(|(at, unknowns)| {
+        let nodes = all.filter_map(|(at, unknowns)| {
             let crossing = at % joints.per_floor;
             Some(JointNodes {
                 crossing: [crossing % lines_x, crossing / lines_x],
                 floor: at / joints.per_floor,
-                nodes: (*unknowns)?.map(|own| own.map(|index| self.joints.start + index)),
+                nodes: (*unknowns)?.map(|unknown| unknown.map(|index| self.joints.start + index)),
             })
         });
-        own.collect()
+        nodes.collect()
     }
 }

@@ -31,13 +31,16 @@ impl MemberForces {
             };
             let (axial, torsion) = (add(&member.axial), add(&member.torsion));
             let shear = add(&member.bending.shear);
-            let shear_across = member.across.as_ref().map(|own| add(&own.shear));
+            let shear_across = member.across.as_ref().map(|plane| add(&plane.shear));
             let place = MemberPlace::InSpace(member.place);
             let level = member.place.storey();
             let sections = [SectionAt::First, SectionAt::Last].into_iter().enumerate();
             let sections = sections.map(|(side, at)| {
                 let moment = add(&member.bending.moments[side]);
-                let across = member.across.as_ref().map(|own| add(&own.moments[side]));
+                let across = member
+                    .across
+                    .as_ref()
+                    .map(|plane| add(&plane.moments[side]));
                 let floor = match (place.is_column(), side) {
                     (true, 0) => level.checked_sub(1),
                     _ => Some(level),
@@ -97,7 +100,7 @@ impl MemberForces {
                 frame: None,
                 number: index + 1,
                 hinge: foot,
-                upper_hinges: upper.filter(|own| *own != foot).collect(),
+                upper_hinges: upper.filter(|upper| *upper != foot).collect(),
                 sliding: None,
                 axial,
                 moment,
@@ -110,7 +113,7 @@ impl MemberForces {
     pub(super) fn add_jointed_frame(&mut self, building: &AssembledBuilding, frame: &JointedFrame) {
         let cuts = JointedCuts { building, frame };
         let floors = &building.discretization.floors;
-        let bending = frame.members.iter().map(|own| cuts.bending(own));
+        let bending = frame.members.iter().map(|member| cuts.bending(member));
         let bending: Vec<[Option<PlaneForces>; 2]> = bending.collect();
         let axial = cuts.axial(&bending);
         for ((member, planes), axial) in frame.members.iter().zip(bending).zip(axial) {
@@ -177,21 +180,21 @@ fn of_condensed_wall(
     rises: [Option<usize>; 2],
 ) -> Option<[LinearForm; 3]> {
     let dofs = motions_of_floors(building);
-    let own = frame.members.iter().find(|own| own.place == foot)?;
+    let member = frame.members.iter().find(|member| member.place == foot)?;
     let plane = match wall.along {
-        PlanAxis::X => &own.bending,
-        PlanAxis::Y => own.across.as_ref()?,
+        PlanAxis::X => &member.bending,
+        PlanAxis::Y => member.across.as_ref()?,
     };
     let [below, above] = rises.map(|floor| {
         let floor = floor?;
         let mut joints = frame.joints.iter();
-        let own = joints.find(|own| own.floor == floor && own.crossing == wall.line)?;
-        Some(over(&dofs, &own.rows[0]))
+        let joint = joints.find(|joint| joint.floor == floor && joint.crossing == wall.line)?;
+        Some(over(&dofs, &joint.rows[0]))
     });
     let mut elongation = above.unwrap_or_default();
     elongation.add(-1.0, &below.unwrap_or_default());
     Some([
-        over(&dofs, &own.axial),
+        over(&dofs, &member.axial),
         over(&dofs, &plane.moments[0]),
         elongation,
     ])
@@ -206,17 +209,20 @@ fn of_jointed_wall(
     rises: [Option<usize>; 2],
 ) -> Option<[LinearForm; 3]> {
     let cuts = JointedCuts { building, frame };
-    let bending = frame.members.iter().map(|own| cuts.bending(own));
+    let bending = frame.members.iter().map(|member| cuts.bending(member));
     let bending: Vec<[Option<PlaneForces>; 2]> = bending.collect();
-    let index = frame.members.iter().position(|own| own.place == foot)?;
+    let index = frame
+        .members
+        .iter()
+        .position(|member| member.place == foot)?;
     let plane = bending[index][wall.along.index()].as_ref()?;
     let mut elongation = LinearForm::default();
     for (floor, sign) in rises.into_iter().zip([-1.0, 1.0]) {
         let joint = floor.and_then(|floor| {
             let mut joints = frame.joints.iter();
-            joints.find(|own| own.floor == floor && own.crossing == wall.line)
+            joints.find(|joint| joint.floor == floor && joint.crossing == wall.line)
         });
-        if let Some(rise) = joint.and_then(|own| own.nodes[0])
+        if let Some(rise) = joint.and_then(|joint| joint.nodes[0])
             && let Some(dof) = building.equations.dof((rise, THETA))
         {
             elongation.displacement.add(dof, sign);
@@ -268,12 +274,12 @@ impl JointedCuts<'_> {
                 (SpacePlace::Column { .. }, 1) | (SpacePlace::BeamY { .. }, _) => PlanAxis::Y,
                 _ => PlanAxis::X,
             };
-            let own = SpringPlace::InSpace {
+            let space = SpringPlace::InSpace {
                 place: member.place,
                 end,
                 axis,
             };
-            places.iter().position(|place| *place == own)
+            places.iter().position(|place| *place == space)
         };
         [0, 1].map(|plane| {
             let forces = self.forces(member.bending[plane]?);
@@ -281,14 +287,14 @@ impl JointedCuts<'_> {
                 return None;
             };
             let mut shear = LinearForm::default();
-            for own in [first, last] {
-                shear.add(-sign / member.length, own);
+            for end_moment in [first, last] {
+                shear.add(-sign / member.length, end_moment);
             }
-            let moment = |end: MemberEnd, own: &LinearForm, sign: f64| {
+            let moment = |end: MemberEnd, end_moment: &LinearForm, sign: f64| {
                 let mut form = LinearForm::default();
                 match hinge(end, plane) {
                     Some(spring) => form.springs.add(spring, 1.0),
-                    None => form.add(sign, own),
+                    None => form.add(sign, end_moment),
                 }
                 form
             };
@@ -308,7 +314,7 @@ impl JointedCuts<'_> {
         let members = &self.frame.members;
         let of_stretch = |member: &JointedMember| {
             let forces = member.axial.map(|element| self.forces(element));
-            forces.map_or_else(LinearForm::default, |mut own| own.swap_remove(0))
+            forces.map_or_else(LinearForm::default, |mut force| force.swap_remove(0))
         };
         let mut axial: Vec<LinearForm> = members.iter().map(of_stretch).collect();
         let is_column = |place: SpacePlace| matches!(place, SpacePlace::Column { .. });

@@ -288,7 +288,7 @@ impl SpringPlace {
                 false
             }
             Self::Diagonal { place, .. } => place.kind == DiagonalKind::Brace,
-            own => !own.is_isolation(),
+            place => !place.is_isolation(),
         }
     }
 
@@ -317,10 +317,10 @@ impl SpringPlace {
 
     /// That of a brace or a strut, if it yields.
     #[must_use]
-    pub fn of_diagonal(own: &FrameDiagonal) -> Self {
+    pub fn of_diagonal(diagonal: &FrameDiagonal) -> Self {
         Self::Diagonal {
-            frame: own.frame.map(|frame| frame + 1),
-            place: own.place,
+            frame: diagonal.frame.map(|frame| frame + 1),
+            place: diagonal.place,
         }
     }
 
@@ -379,7 +379,7 @@ fn in_words(place: DiagonalPlace) -> String {
         };
         return format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}{off}");
     };
-    let [x, y] = line.crossing(bay - 1).map(|own| own + 1);
+    let [x, y] = line.crossing(bay - 1).map(|crossing| crossing + 1);
     let along = line.along.name();
     let towards = match place.rise {
         Rise::Right => "greater",
@@ -423,8 +423,8 @@ impl std::fmt::Display for SpringPlace {
                 line,
                 end,
             } => {
-                let own = Self::Column { storey, line, end };
-                write!(formatter, "frame {frame}, {own}")
+                let column = Self::Column { storey, line, end };
+                write!(formatter, "frame {frame}, {column}")
             }
             Self::BeamInPlan {
                 frame,
@@ -432,8 +432,8 @@ impl std::fmt::Display for SpringPlace {
                 bay,
                 end,
             } => {
-                let own = Self::Beam { floor, bay, end };
-                write!(formatter, "frame {frame}, {own}")
+                let beam = Self::Beam { floor, bay, end };
+                write!(formatter, "frame {frame}, {beam}")
             }
             Self::InSpace { place, end, axis } => {
                 write!(formatter, "{place}, {}", end.in_space(place))?;

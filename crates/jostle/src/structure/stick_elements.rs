@@ -69,18 +69,18 @@ impl StickModel {
     /// those between any points.
     pub(crate) fn single_springs(&self) -> impl Iterator<Item = YieldingElement> + '_ {
         let foundation = self.foundation.as_ref();
-        let hinges = self.hinges.iter().filter_map(|own| {
+        let hinges = self.hinges.iter().filter_map(|hinge| {
             Some(YieldingElement {
-                row: own.rotation(),
-                hysteresis: own.hysteresis?,
-                proportional_damping: own.proportional_damping,
+                row: hinge.rotation(),
+                hysteresis: hinge.hysteresis?,
+                proportional_damping: hinge.proportional_damping,
             })
         });
-        let storeys = self.springs.iter().filter_map(move |own| {
+        let storeys = self.springs.iter().filter_map(move |spring| {
             Some(YieldingElement {
-                row: own.deformation(foundation),
-                hysteresis: own.hysteresis?,
-                proportional_damping: own.proportional_damping,
+                row: spring.deformation(foundation),
+                hysteresis: spring.hysteresis?,
+                proportional_damping: spring.proportional_damping,
             })
         });
         hinges.chain(storeys).chain(self.yielding.iter().cloned())
@@ -102,7 +102,7 @@ impl StickModel {
     #[must_use]
     pub fn moves_across(&self) -> bool {
         let mut all = self.nodes.iter().flat_map(|node| node.influence);
-        all.any(|own| own.across != 0.0)
+        all.any(|influence| influence.across != 0.0)
     }
 
     /// What a displacement of a node moves.
@@ -125,7 +125,7 @@ impl Spring {
     pub(crate) fn deformation(&self, foundation: Option<&RigidFoundation>) -> Row {
         let [lower, upper] = self.ends;
         let turned = foundation.zip(self.lever);
-        let turned = turned.map(|(own, lever)| ((own.node, THETA), lever));
+        let turned = turned.map(|(foundation, lever)| ((foundation.node, THETA), lever));
         over_nodes(
             [((upper, X), 1.0), ((lower, X), -1.0)]
                 .into_iter()

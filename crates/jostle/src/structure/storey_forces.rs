@@ -53,14 +53,14 @@ impl Storey {
         let (shear, moment): (Vec<_>, Vec<_>) = kept.unzip();
         self.of_displacements = [shear, moment].map(Row::from_iter);
         // Both ends of a spring within one storey.
-        self.of_springs.dedup_by(|(spring, own), (kept, sum)| {
+        self.of_springs.dedup_by(|(spring, share), (kept, sum)| {
             let same = spring == kept;
             if same {
-                (0..2).for_each(|term| sum[term] += own[term]);
+                (0..2).for_each(|term| sum[term] += share[term]);
             }
             same
         });
-        self.of_springs.retain(|(_, own)| *own != [0.0; 2]);
+        self.of_springs.retain(|(_, share)| *share != [0.0; 2]);
     }
 }
 
@@ -80,7 +80,7 @@ fn force_about(
     };
     match direction {
         THETA => acts[2] + acts[0] * (axis[1] - y) + acts[1] * (x - axis[0]),
-        own => acts[own],
+        direction => acts[direction],
     }
 }
 
@@ -119,7 +119,7 @@ impl StoreyForces {
                 height: top - std::mem::replace(&mut below, *top),
                 ..Storey::default()
             });
-            let mut own = Self {
+            let mut forces = Self {
                 storeys: storeys.collect(),
                 per_direction: tops.len(),
             };
@@ -138,7 +138,7 @@ impl StoreyForces {
                 if share == 0.0 && *direction != THETA {
                     continue;
                 }
-                if let Some((storey, arm)) = own.arm(tops, stick_model.nodes[a.0].y) {
+                if let Some((storey, arm)) = forces.arm(tops, stick_model.nodes[a.0].y) {
                     let force = share * value;
                     storey.displace(dof, [force, arm * force]);
                 }
@@ -150,14 +150,14 @@ impl StoreyForces {
                     let carried = stick_model.carried(place);
                     let mut carried = element::places(&carried);
                     let node = carried.next().map_or(place.0, |((node, _), _)| node);
-                    let at = own.arm(tops, stick_model.nodes[node].y);
+                    let at = forces.arm(tops, stick_model.nodes[node].y);
                     if let (true, Some((storey, arm))) = (force != 0.0, at) {
                         storey.of_springs.push((index, [force, arm * force]));
                     }
                 }
             }
-            own.storeys.iter_mut().for_each(Storey::merge);
-            all.storeys.append(&mut own.storeys);
+            forces.storeys.iter_mut().for_each(Storey::merge);
+            all.storeys.append(&mut forces.storeys);
         }
         all
     }
@@ -178,8 +178,8 @@ impl StoreyForces {
             let shares = [x, y, about_axis].into_iter().enumerate();
             for (direction, share) in shares.take(directions) {
                 if let (true, Some((storey, arm))) = (share != 0.0, self.place(&tops, end.height)) {
-                    let own = &mut self.storeys[direction * self.per_direction + storey];
-                    own.of_links.push((link, [share, share * arm]));
+                    let storey = &mut self.storeys[direction * self.per_direction + storey];
+                    storey.of_links.push((link, [share, share * arm]));
                 }
             }
         }
@@ -228,13 +228,13 @@ impl StoreyForces {
             if (index + 1).is_multiple_of(self.per_direction) {
                 above = StoreyForce::default();
             }
-            let mut own = StoreyForce {
+            let mut storey_force = StoreyForce {
                 shear: above.shear,
                 moment: above.moment + above.shear * storey.height,
             };
             let mut add = |[force, moment]: [f64; 2], by: f64| {
-                own.shear += force * by;
-                own.moment += moment * by;
+                storey_force.shear += force * by;
+                storey_force.moment += moment * by;
             };
             let [shear, moment] = storey.of_displacements.each_ref().map(Row::entries);
             for ((dof, force), (_, moment)) in shear.iter().zip(moment) {
@@ -246,8 +246,8 @@ impl StoreyForces {
             for (index, share) in &storey.of_links {
                 add(*share, link(*index));
             }
-            take(index, own);
-            above = own;
+            take(index, storey_force);
+            above = storey_force;
         }
     }
 }

@@ -57,12 +57,12 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     // Joints follow the floors until a hinge yields; what they carry moves them as well. What stands on a base that rocks rises with it.
     let rocks = base.rocks_in_plan();
     let carries = gravity.preload || rocks;
-    let follows = |own: &&SpaceFrame| !own.may_yield() && !carries;
+    let follows = |frame: &&SpaceFrame| !frame.may_yield() && !carries;
     let following = tiers.space_frame.as_ref().filter(follows);
     let condensed = following.and_then(|frame| {
-        let own = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
-        matrix.add_triangle(&own.stiffness, Part::Elastic);
-        Some((Arc::new(own.frame), own.elongations))
+        let condense = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
+        matrix.add_triangle(&condense.stiffness, Part::Elastic);
+        Some((Arc::new(condense.frame), condense.elongations))
     });
     let (condensed, following) = condensed.unzip();
     if let Some(given) = &tiers.matrices {
@@ -78,26 +78,34 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     if let (None, Some(footing)) = (&base.isolation, &mat) {
         stick_model.stand_on_footing(base, footing, foot);
     }
-    let jointed = tiers.space_frame.as_ref().filter(|own| !follows(own));
+    let jointed = tiers
+        .space_frame
+        .as_ref()
+        .filter(|space_frame| !follows(space_frame));
     let jointed = jointed.map(|frame| {
         let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
-        let base = stick_model.plan_base.filter(|own| own.rocking.is_some());
-        let assembly = assembly.rocking_about(base.map(|own| (own.middle, own.rises)));
+        let base = stick_model
+            .plan_base
+            .filter(|plan_base| plan_base.rocking.is_some());
+        let assembly = assembly.rocking_about(base.map(|base| (base.middle, base.rises)));
         let floors = tiers.floors.iter().enumerate();
-        let weights = floors.map(|(floor, own)| [own.mass, tiers.floor_load(floor)]);
+        let weights = floors.map(|(floor, tier)| [tier.mass, tiers.floor_load(floor)]);
         let carried: Vec<[f64; 2]> = weights.filter(|_| carries).collect();
         add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried)
     });
-    let (jointed, own) = match jointed {
-        Some(mut own) => (Some(Arc::new(std::mem::take(&mut own.frame))), own),
+    let (jointed, joints) = match jointed {
+        Some(mut add_space_joints) => (
+            Some(Arc::new(std::mem::take(&mut add_space_joints.frame))),
+            add_space_joints,
+        ),
         None => (None, AddedJoints::default()),
     };
-    let (mut spring_places, sections) = (own.places, own.sections);
-    for own in &tiers.yielding {
-        let (storey, axis) = (own.storey, own.axis);
-        let arm = |floor: usize| motion_at(own.at, lumped[floor].tier.centre)[axis.index()][2];
+    let (mut spring_places, sections) = (joints.places, joints.sections);
+    for yielding in &tiers.yielding {
+        let (storey, axis) = (yielding.storey, yielding.axis);
+        let arm = |floor: usize| motion_at(yielding.at, lumped[floor].tier.centre)[axis.index()][2];
         let arm_of_mat = mat.as_ref().map_or(0.0, |mat| {
-            motion_at(own.at, mat.tier.centre)[axis.index()][2]
+            motion_at(yielding.at, mat.tier.centre)[axis.index()][2]
         });
         let below = storey.checked_sub(1);
         let component = [X, Y][axis.index()];
@@ -110,11 +118,11 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
         ]);
         stick_model.yielding.push(YieldingElement {
             row: stick_model.without_rocking(&row),
-            hysteresis: own.hysteresis,
+            hysteresis: yielding.hysteresis,
             proportional_damping: ProportionalDamping::Initial,
         });
         let storey = storey + 1;
-        spring_places.push(match own.element {
+        spring_places.push(match yielding.element {
             Some(element) => SpringPlace::Element {
                 element: element + 1,
                 storey,
@@ -137,26 +145,30 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     if let Some(frame) = &tiers.space_frame {
         discretization.space_walls.clone_from(&frame.walls);
         let follows_floors = discretization.space_frame.is_some();
-        let of_floors = following.into_iter().flatten().map(|own| {
+        let of_floors = following.into_iter().flatten().map(|following| {
             let motions = nodes
                 .iter()
                 .flat_map(|node| [X, Y, THETA].map(|c| (*node, c)));
-            over_nodes(motions.zip(own).filter(|(_, share)| *share != 0.0))
+            over_nodes(motions.zip(following).filter(|(_, share)| *share != 0.0))
         });
         let level = |level: usize| match level.checked_sub(1) {
             Some(floor) => discretization.floors[floor],
             None => foot,
         };
-        let elongations = of_floors.chain(own.elongations);
-        let found = frame.diagonals.iter().zip(elongations).map(|(own, row)| {
-            let ends = [own.place.storey - 1, own.place.storey].map(level);
-            FrameDiagonal::new(own, ends, row).in_space(frame.direction)
-        });
-        for own in found.collect::<Vec<_>>() {
+        let elongations = of_floors.chain(joints.elongations);
+        let found = frame
+            .diagonals
+            .iter()
+            .zip(elongations)
+            .map(|(diagonal, row)| {
+                let ends = [diagonal.place.storey - 1, diagonal.place.storey].map(level);
+                FrameDiagonal::new(diagonal, ends, row).in_space(frame.direction)
+            });
+        for space in found.collect::<Vec<_>>() {
             match follows_floors {
                 // The stiffness of the frame includes it.
-                true => discretization.diagonals.push(own),
-                false => discretization.add_diagonal(own),
+                true => discretization.diagonals.push(space),
+                false => discretization.add_diagonal(space),
             }
         }
     }
@@ -164,7 +176,8 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     add_frames(tiers, &lumped, below, carries, &mut discretization);
     if tiers.frames.is_empty() && tiers.space_frame.is_none() {
         let floors = lumped.iter().enumerate();
-        let carried = floors.map(|(floor, own)| [own.tier.mass, tiers.floor_load(floor)]);
+        let carried =
+            floors.map(|(floor, tier_floor)| [tier_floor.tier.mass, tiers.floor_load(floor)]);
         discretization.let_floors_rise(&carried.collect::<Vec<_>>());
     }
     let places = [ground, foot];

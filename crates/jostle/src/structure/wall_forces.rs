@@ -68,20 +68,22 @@ impl MemberForces {
             return;
         }
         let cuts = Cuts::new(building, rest.gravity);
-        for (wall, own) in discretization.walls.iter().enumerate() {
+        for (wall, frame_wall) in discretization.walls.iter().enumerate() {
             let place = MemberPlace::Column {
-                line: own.part.line,
-                storey: own.part.storeys[0],
+                line: frame_wall.part.line,
+                storey: frame_wall.part.storeys[0],
             };
-            let Some(foot) = discretization.member_at(own.frame, place) else {
+            let Some(foot) = discretization.member_at(frame_wall.frame, place) else {
                 continue;
             };
             let [axial, _, moment] = cuts.at_foot(foot).map(|form| self.index_of(form));
             let top = MemberPlace::Column {
-                line: own.part.line,
-                storey: own.part.storeys[1],
+                line: frame_wall.part.line,
+                storey: frame_wall.part.storeys[1],
             };
-            let top = discretization.member_at(own.frame, top).unwrap_or(foot);
+            let top = discretization
+                .member_at(frame_wall.frame, top)
+                .unwrap_or(foot);
             let ends = [cuts.first_node(foot), cuts.last_node(top)];
             let stretched = over_nodes([((ends[1], Y), 1.0), ((ends[0], Y), -1.0)]);
             let stretched = discretization.stick_model.carried_row(&stretched);
@@ -89,18 +91,24 @@ impl MemberForces {
                 displacement: building.equations.row(&stretched),
                 ..LinearForm::default()
             });
-            let (line, storey) = (own.part.line, own.part.storeys[0]);
+            let (line, storey) = (frame_wall.part.line, frame_wall.part.storeys[0]);
             let before = discretization.walls[..wall].iter();
             let hinge = |storey, end| SpringPlace::Column { storey, line, end };
-            let upper = own.part.hinges.iter().map(|own| match own.at_head {
-                true => hinge(own.storey, MemberEnd::Last),
-                false => hinge(own.storey, MemberEnd::First),
-            });
+            let upper = frame_wall
+                .part
+                .hinges
+                .iter()
+                .map(|end_hinge| match end_hinge.at_head {
+                    true => hinge(end_hinge.storey, MemberEnd::Last),
+                    false => hinge(end_hinge.storey, MemberEnd::First),
+                });
             let foot_hinge = hinge(storey, MemberEnd::First);
             self.walls.push(WallForce {
-                upper_hinges: upper.filter(|own| *own != foot_hinge).collect(),
-                frame: own.frame,
-                number: 1 + before.filter(|other| other.frame == own.frame).count(),
+                upper_hinges: upper.filter(|upper| *upper != foot_hinge).collect(),
+                frame: frame_wall.frame,
+                number: 1 + before
+                    .filter(|other| other.frame == frame_wall.frame)
+                    .count(),
                 hinge: foot_hinge,
                 sliding: Some(SpringPlace::sliding(place)),
                 axial,
@@ -108,12 +116,12 @@ impl MemberForces {
                 elongation,
             });
         }
-        for (beam, own) in discretization.coupling_beams.iter().enumerate() {
+        for (beam, coupling_beam) in discretization.coupling_beams.iter().enumerate() {
             let place = MemberPlace::Beam {
-                floor: own.part.floor,
-                span: own.part.bay,
+                floor: coupling_beam.part.floor,
+                span: coupling_beam.part.bay,
             };
-            let Some(member) = discretization.member_at(own.frame, place) else {
+            let Some(member) = discretization.member_at(coupling_beam.frame, place) else {
                 continue;
             };
             let [_, shear, _] = cuts.at_foot(member);
@@ -138,28 +146,28 @@ impl MemberForces {
         let discretization = &building.discretization;
         let at_base = |line: usize| {
             let mut walls = discretization.walls.iter();
-            walls.any(|own| own.part.line == line && own.part.storeys[0] == 1)
+            walls.any(|wall| wall.part.line == line && wall.part.storeys[0] == 1)
         };
-        let columns = discretization.members.iter().filter_map(|own| {
-            let at_base_of_frame = own.frame.is_none();
-            match own.place {
-                MemberPlace::Column { line, storey: 1 } if at_base_of_frame => Some((line, own)),
+        let columns = discretization.members.iter().filter_map(|member| {
+            let at_base_of_frame = member.frame.is_none();
+            match member.place {
+                MemberPlace::Column { line, storey: 1 } if at_base_of_frame => Some((line, member)),
                 _ => None,
             }
         });
         let columns: Vec<_> = columns.collect();
         let nodes = &discretization.stick_model.nodes;
-        let x = |own: &super::FrameMember| nodes[cuts.first_node(own)].x;
+        let x = |member: &super::FrameMember| nodes[cuts.first_node(member)].x;
         let walls = columns.iter().filter(|(line, _)| at_base(*line));
-        let axes: Vec<f64> = walls.map(|(_, own)| x(own)).collect();
+        let axes: Vec<f64> = walls.map(|(_, column)| x(column)).collect();
         if axes.len() < 2 || self.coupling_beams.is_empty() {
             return;
         }
         let middle = axes.iter().sum::<f64>() / axes.len() as f64;
         let [mut couple, mut total] = [LinearForm::default(), LinearForm::default()];
-        for (line, own) in &columns {
-            let [axial, _, moment] = cuts.at_foot(own);
-            let lever = x(own) - middle;
+        for (line, column) in &columns {
+            let [axial, _, moment] = cuts.at_foot(column);
+            let lever = x(column) - middle;
             if at_base(*line) {
                 couple.add(lever, &axial);
             }
@@ -180,16 +188,19 @@ fn chord(building: &AssembledBuilding, elements: std::ops::Range<usize>) -> (Row
     let members = &stick_model.members[elements];
     // From what stands beyond hinges to the faces, which are the first nodes there.
     let at_face = |node: usize| {
-        let own = stick_model.nodes[node];
+        let stick_model_node = stick_model.nodes[node];
         let frame = stick_model.turn(node).elevation;
         let tied = |other: &usize| {
             let is_in_frame = stick_model.turn(*other).elevation == frame;
             let other = stick_model.nodes[*other];
-            is_in_frame && (other.x - own.x).abs() + (other.y - own.y).abs() < 1e-9
+            is_in_frame
+                && (other.x - stick_model_node.x).abs() + (other.y - stick_model_node.y).abs()
+                    < 1e-9
         };
         (0..stick_model.nodes.len()).find(tied).unwrap_or(node)
     };
-    let ends = [members.first(), members.last()].map(|own| own.map_or([0; 2], |own| own.ends));
+    let ends =
+        [members.first(), members.last()].map(|member| member.map_or([0; 2], |node| node.ends));
     let [left, right] = [at_face(ends[0][0]), at_face(ends[1][1])];
     let length = stick_model.nodes[right].x - stick_model.nodes[left].x;
     let row = over_nodes([

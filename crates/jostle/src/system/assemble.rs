@@ -53,8 +53,8 @@ impl System {
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
                     .map(|founded| (founded.damping.clone(), Some((founded, *foundation)), None)),
                 (None, None, Some((foundation, ground))) => fixed(false).and_then(|fixed| {
-                    let own = FoundationInPlan::new(building, &fixed, &foundation, &ground)?;
-                    Ok((rayleigh(&fixed), None, Some(own)))
+                    let plan = FoundationInPlan::new(building, &fixed, &foundation, &ground)?;
+                    Ok((rayleigh(&fixed), None, Some(plan)))
                 }),
                 (None, None, None) => Ok((building.damping.clone(), None, None)),
             };
@@ -68,8 +68,8 @@ impl System {
                     continue;
                 }
             };
-            let on_springs = in_plan.map(|own| Building {
-                base: own.base(&building.base),
+            let on_springs = in_plan.map(|plan| Building {
+                base: plan.base(&building.base),
                 ..building.clone()
             });
             let building = on_springs.as_ref().unwrap_or(building);
@@ -124,7 +124,7 @@ impl System {
                 });
             }
             assembled.damped_at.append(&mut damped_at);
-            assembled.foundation_in_plan = in_plan.and_then(|own| own.under(&assembled));
+            assembled.foundation_in_plan = in_plan.and_then(|plan| plan.under(&assembled));
             if let Some((founded, foundation)) = &founded {
                 assembled.foundation = founded.place(&assembled, *foundation);
                 // Only now what the foundation turns can be taken out of their shortening.
@@ -142,15 +142,15 @@ impl System {
             let place = wall.stiffness.map(|stiffness| {
                 let direction = wall.direction();
                 let sticks = Discretization::of_wall(stiffness, wall, direction);
-                let mut own = BuildingSystem::new(&wall.name, sticks);
-                own.support = Some(SpringSupport {
+                let mut system = BuildingSystem::new(&wall.name, sticks);
+                system.support = Some(SpringSupport {
                     dof: 0,
                     stiffness,
                     damping: wall.damping,
                     spring: None,
                     direction,
                 });
-                buildings.push(own);
+                buildings.push(system);
                 buildings.len() - 1
             });
             walls.push(WallPlace {
@@ -163,7 +163,7 @@ impl System {
         system.join(&row, model)?;
         let places = system.buildings.iter().enumerate();
         let places: Vec<_> = places
-            .filter_map(|(index, own)| Some((index, own.foundation?)))
+            .filter_map(|(index, building)| Some((index, building.foundation?)))
             .collect();
         let soil = soil::links(&between, &places, &system.buildings, model.links.len());
         system.soil_links = soil.len();
@@ -274,8 +274,9 @@ impl System {
                             ports,
                         };
                         if let (true, Some(building)) = (inside, link.between[0]) {
-                            let mut own = self.buildings[building].structure.inner_links.iter_mut();
-                            let next = own.nth(joined_inside[building]);
+                            let mut inner_links =
+                                self.buildings[building].structure.inner_links.iter_mut();
+                            let next = inner_links.nth(joined_inside[building]);
                             joined_inside[building] += 1;
                             if let Some(next) = next {
                                 next.link = self.links.len();
@@ -297,8 +298,11 @@ impl System {
                 self.walls[wall].building.is_none().then_some(wall)
             })
         };
-        let contacts = self.contacts.iter().map(|own| row.gaps[own.gap].between);
-        let links = self.links.iter().map(|own| row.links[own.link].between);
+        let contacts = self
+            .contacts
+            .iter()
+            .map(|contact| row.gaps[contact.gap].between);
+        let links = self.links.iter().map(|link| row.links[link.link].between);
         self.rigid_walls = contacts.chain(links).map(rigid).collect();
         if faults.is_empty() {
             Ok(())
@@ -406,12 +410,15 @@ fn plan_contacts(
         let Structure::Tiers(tiers) = &building.structure else {
             return Vec::new();
         };
-        let mat = building.base.isolation.map_or(0.0, |own| own.mat_mass);
+        let mat = building
+            .base
+            .isolation
+            .map_or(0.0, |isolation| isolation.mat_mass);
         let mut all = vec![tiers.mat(mat)];
         all.extend(tiers.lumped_floors());
         all
     };
-    let (own, other) = (floors(a), floors(b));
+    let (one, other) = (floors(a), floors(b));
     let found = faces_of_gap(model, gap).unwrap_or_default();
     let narrowest = narrowest(&found).unwrap_or_default();
     let wider = gap.width() - narrowest;
@@ -432,7 +439,7 @@ fn plan_contacts(
             (None, Some((_, wall))) => wall.equations.mass[0],
             (None, None) => f64::INFINITY,
         };
-        let masses = [mass_of(a, own.get(*i)), mass_of(b, other.get(*j))];
+        let masses = [mass_of(a, one.get(*i)), mass_of(b, other.get(*j))];
         let whole = match gap.in_plan.per_length {
             true if face.overlap > 0.0 => gap.law.stiffness * face.overlap,
             _ => gap.law.stiffness,
@@ -446,32 +453,32 @@ fn plan_contacts(
         });
         // That of the floor beside a wall, which has none.
         let beside = [(a, *i), (b, *j)].into_iter().filter_map(|(side, floor)| {
-            let own = system.structures().get(side)?;
-            let floor = own.floors.get(floor.checked_sub(1)?)?;
-            Some(floor.height + own.discretization.elevation)
+            let structure = system.structures().get(side)?;
+            let floor = structure.floors.get(floor.checked_sub(1)?)?;
+            Some(floor.height + structure.discretization.elevation)
         });
         let beside = beside.reduce(f64::max).unwrap_or_default();
         for point in &face.points {
             let port = |building: usize, floor: usize, mass: f64, direction: PlanPoint| {
                 if building >= model.buildings.len() {
                     // Every point of a wall moves alike; friction along it moves nothing.
-                    let (building, own) = wall(building)?;
-                    let normal = own.support.as_ref()?.direction;
+                    let (building, wall_system) = wall(building)?;
+                    let normal = wall_system.support.as_ref()?.direction;
                     let share = direction[0] * normal[0] + direction[1] * normal[1];
                     return (share.abs() > SAME).then(|| Port {
                         building,
-                        row: Row::single(own.offset).times(share),
+                        row: Row::single(wall_system.offset).times(share),
                         mass: point.share * mass,
                         floor: None,
                         height: beside,
                         level: beside,
                     });
                 }
-                let own = system.buildings.get(building)?;
-                let (row, height) = match (floor.checked_sub(1), &own.mat_in_plan) {
+                let building_system = system.buildings.get(building)?;
+                let (row, height) = match (floor.checked_sub(1), &building_system.mat_in_plan) {
                     (Some(index), _) => {
-                        let row = own.row_at(index, point.at, direction);
-                        (row, own.floors[index].height)
+                        let row = building_system.row_at(index, point.at, direction);
+                        (row, building_system.floors[index].height)
                     }
                     (None, mat) => (mat.as_ref()?.row_at(point.at, direction), 0.0),
                 };
@@ -481,7 +488,7 @@ fn plan_contacts(
                     mass: point.share * mass,
                     floor: Some(floor),
                     height,
-                    level: height + own.discretization.elevation,
+                    level: height + building_system.discretization.elevation,
                 })
             };
             let ports = |direction| {
@@ -497,7 +504,7 @@ fn plan_contacts(
             }));
             let along = [-face.normal[1], face.normal[0]];
             let friction = (gap.in_plan.friction > 0.0).then(|| {
-                let pushed = [own.get(*i), other.get(*j)];
+                let pushed = [one.get(*i), other.get(*j)];
                 let pushed = pushed.into_iter().flatten();
                 Friction {
                     law: Coulomb {
@@ -558,11 +565,11 @@ fn ports(
             let wall = between[side].and_then(|index| index.checked_sub(structures));
             let wall = wall.and_then(|wall| system.walls[wall].building);
             ports[side] = wall.map(|building| {
-                let own = &system.buildings[building];
+                let system_building = &system.buildings[building];
                 Port {
                     building,
-                    row: Row::single(own.offset),
-                    mass: own.equations.mass[0],
+                    row: Row::single(system_building.offset),
+                    mass: system_building.equations.mass[0],
                     floor: None,
                     height: mean(pair),
                     level: mean(pair),
@@ -597,23 +604,23 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
     let (Some(building), FloorPairs::Listed(pairs)) = (link.between[0], &link.floors) else {
         return Vec::new();
     };
-    let own = &system.buildings[building];
-    let nodes = &own.discretization.stick_model.nodes;
+    let system_building = &system.buildings[building];
+    let nodes = &system_building.discretization.stick_model.nodes;
     let port = |level: Level| {
         let Level::Floor(floor) = level else {
             return Ok(None);
         };
         let node = match floor.checked_sub(1) {
             Some(index) => {
-                let height = own.floors[index].height;
-                let mut face = own.discretization.right_face.iter().copied();
+                let height = system_building.floors[index].height;
+                let mut face = system_building.discretization.right_face.iter().copied();
                 face.find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
             }
-            None => own.discretization.base_node(),
+            None => system_building.discretization.base_node(),
         };
         let port = |node| {
             let port = system.port(building, node);
-            port.map(|port| relative_to_foundation(own, port))
+            port.map(|port| relative_to_foundation(system_building, port))
         };
         node.map(port).transpose()
     };
@@ -638,15 +645,15 @@ fn inner_links(
     model: &Model,
     index: usize,
 ) -> Result<Vec<InnerLink>, Vec<ModelFault>> {
-    let own = |link: &&(usize, &Link)| link.1.is_inside() && link.1.between[0] == Some(index);
+    let is_inner = |link: &&(usize, &Link)| link.1.is_inside() && link.1.between[0] == Some(index);
     let all: Vec<(usize, &Link)> = model.links.iter().enumerate().collect();
-    if !all.iter().any(|link| own(&link)) {
+    if !all.iter().any(|link| is_inner(&link)) {
         return Ok(Vec::new());
     }
     let alone = System::of_buildings(vec![building.clone()]);
     let building = &alone.buildings[0];
     let mut found = Vec::new();
-    for (number, link) in all.iter().filter(own) {
+    for (number, link) in all.iter().filter(is_inner) {
         let of_alone = Link {
             between: [Some(0); 2],
             ..Link::clone(link)
@@ -733,10 +740,10 @@ fn links_in_plan(
         }
         _ => {
             let floor_at = |side: usize, height: f64| {
-                let own = system.buildings.get(link.between[side]?)?;
-                let foot = own.discretization.elevation;
+                let building = system.buildings.get(link.between[side]?)?;
+                let foot = building.discretization.elevation;
                 let near = |floor: &Floor| (floor.height + foot - height).abs() <= 2.0 * SAME;
-                own.floors.iter().position(near).map(|index| index + 1)
+                building.floors.iter().position(near).map(|index| index + 1)
             };
             let floors = |pair: &PointPair| [0, 1].map(|side| floor_at(side, pair[side]?));
             pairs
@@ -759,23 +766,33 @@ fn ports_in_plan(
     let direction = direction_of(at);
     let ends = [0, 1].map(|side| {
         let (building, floor) = (between[side]?, floors[side]?);
-        let own = system.buildings.get(building)?;
-        let (mut row, height) = match (floor.checked_sub(1), &own.mat_in_plan) {
+        let building_system = system.buildings.get(building)?;
+        let (mut row, height) = match (floor.checked_sub(1), &building_system.mat_in_plan) {
             (Some(index), _) => (
-                own.row_at(index, at[side], direction),
-                own.floors[index].height,
+                building_system.row_at(index, at[side], direction),
+                building_system.floors[index].height,
             ),
             (None, Some(mat)) => (mat.row_at(at[side], direction), 0.0),
-            (None, None) => (own.footing_row_at(at[side], direction)?, 0.0),
+            (None, None) => (building_system.footing_row_at(at[side], direction)?, 0.0),
         };
-        let mass = row.moved_down(own.offset).moving_mass(&own.equations.mass);
+        let mass = row
+            .moved_down(building_system.offset)
+            .moving_mass(&building_system.equations.mass);
         // A building that rocks as a rigid body does not deform what stands between its floors.
         if between[0] == between[1]
-            && let Some([.., along, across]) = own.base_motions()
+            && let Some([.., along, across]) = building_system.base_motions()
         {
             for (rocked, share) in [along, across].into_iter().zip(direction) {
-                let rocked = rocked.moved_up(own.offset).times(-height * share);
-                row.extend(rocked.entries().iter().copied().filter(|own| own.1 != 0.0));
+                let rocked = rocked
+                    .moved_up(building_system.offset)
+                    .times(-height * share);
+                row.extend(
+                    rocked
+                        .entries()
+                        .iter()
+                        .copied()
+                        .filter(|entry| entry.1 != 0.0),
+                );
             }
         }
         Some(Port {
@@ -784,7 +801,7 @@ fn ports_in_plan(
             mass,
             floor: Some(floor).filter(|floor| *floor > 0),
             height,
-            level: height + own.discretization.elevation,
+            level: height + building_system.discretization.elevation,
         })
     });
     PortPair(ends)

@@ -345,7 +345,7 @@ impl BuildingSystem {
             return -along.value(&displacement[self.range()]);
         }
         let foundation = self.foundation.as_ref();
-        foundation.map_or(0.0, |own| displacement[own.turning])
+        foundation.map_or(0.0, |foundation| displacement[foundation.turning])
     }
 
     /// Lateral modes, longest period first.
@@ -437,8 +437,10 @@ impl BuildingSystem {
 
     /// Whether columns of frames hold floors in plan.
     pub(crate) fn has_columns_in_plan(&self) -> bool {
-        let own = &self.discretization;
-        !own.frames.is_empty() || own.space_frame.is_some() || own.jointed_frame.is_some()
+        let discretization = &self.discretization;
+        !discretization.frames.is_empty()
+            || discretization.space_frame.is_some()
+            || discretization.jointed_frame.is_some()
     }
 
     /// Whether any mass moves vertically.
@@ -453,7 +455,7 @@ impl BuildingSystem {
         let nodes = self.discretization.stick_model.nodes.iter().enumerate();
         let places = nodes.flat_map(|(node, place)| {
             let components = place.influence.iter().enumerate();
-            let rising = components.filter(|(_, own)| own.up > 0.0);
+            let rising = components.filter(|(_, candidate)| candidate.up > 0.0);
             rising.map(move |(component, _)| (place.y, (node, component)))
         });
         places.filter_map(|(height, place)| {
@@ -527,11 +529,11 @@ impl BuildingSystem {
 
     /// The displacement of a point of its footing in a direction, over the vectors of a [`crate::State`]; `None` where it does not move.
     pub(crate) fn footing_row_at(&self, at: PlanPoint, direction: [f64; 2]) -> Option<Row> {
-        let own = self.discretization.stick_model.plan_base?;
-        let [x, y, _] = motion_at(at, own.centre);
+        let plan_base = self.discretization.stick_model.plan_base?;
+        let [x, y, _] = motion_at(at, plan_base.centre);
         let shares = [X, Y, THETA].map(|component| {
             let share = direction[0] * x[component] + direction[1] * y[component];
-            ((own.footing, component), share)
+            ((plan_base.footing, component), share)
         });
         let row = self.equations.row(&over_nodes(shares));
         (!row.is_empty()).then(|| row.moved_up(self.offset))
@@ -547,9 +549,10 @@ impl BuildingSystem {
         });
         let sticks = &self.discretization.stick_model;
         let base = sticks.plan_base;
-        if let (Some(own), Some(plan)) = (base, plans.first()) {
-            let dofs = [X, Y, THETA].map(|component| self.equations.dof((own.footing, component)));
-            below = Some((dofs, own.centre, *plan));
+        if let (Some(plan_base), Some(plan)) = (base, plans.first()) {
+            let dofs =
+                [X, Y, THETA].map(|component| self.equations.dof((plan_base.footing, component)));
+            below = Some((dofs, plan_base.centre, *plan));
         }
         let rocking = self
             .base_motions()
@@ -557,16 +560,16 @@ impl BuildingSystem {
         let mut storeys = Vec::with_capacity(n);
         for (index, (floor, plan)) in self.floors.iter().zip(plans).enumerate() {
             let dofs = [0, 1, 2].map(|block| self.tracks[block * n + index].dof - self.offset);
-            let own = (dofs, self.discretization.centres[index], *plan);
+            let upper = (dofs, self.discretization.centres[index], *plan);
             storeys.push(PlanStorey {
                 base: rocking.clone(),
-                ..PlanStorey::new(own, below, floor.storey_height)
+                ..PlanStorey::new(upper, below, floor.storey_height)
             });
-            below = Some((dofs.map(Some), own.1, own.2));
+            below = Some((dofs.map(Some), upper.1, upper.2));
         }
-        for (storey, own) in storeys.iter().enumerate() {
+        for (storey, plan_storey) in storeys.iter().enumerate() {
             for block in [0, 1] {
-                self.tracks[block * n + storey].is_in_line = own.is_in_line();
+                self.tracks[block * n + storey].is_in_line = plan_storey.is_in_line();
             }
         }
         self.plan_storeys = storeys;

@@ -34,13 +34,19 @@ impl BuildingSystem {
                     (_, asked) => asked,
                 };
                 let found = self.damped_modes(modes, *sway)?;
-                let frequencies: Vec<f64> = found.iter().map(|own| own.frequency).collect();
+                let frequencies: Vec<f64> = found
+                    .iter()
+                    .map(|damped_mode| damped_mode.frequency)
+                    .collect();
                 // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
-                let damped: Vec<f64> = found.iter().map(|own| own.own_stiffness).collect();
+                let damped: Vec<f64> = found
+                    .iter()
+                    .map(|damped_mode| damped_mode.own_stiffness)
+                    .collect();
                 self.damped_at = found;
                 match (&frequencies[..], &damped[..]) {
-                    (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
-                        (0.0, 2.0 * ratio * single / own)
+                    (&[single], &[own_stiffnesses]) if on_mat && !self.inner_links.is_empty() => {
+                        (0.0, 2.0 * ratio * single / own_stiffnesses)
                     }
                     (&[low, high], &[own_low, own_high]) if !self.inner_links.is_empty() => {
                         let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
@@ -103,7 +109,7 @@ impl BuildingSystem {
         for (place, &number) in numbers.iter().enumerate() {
             let mut best: Option<DampedMode> = None;
             for (direction, modes) in &lateral {
-                let own = modes.get(number - 1).ok_or_else(|| {
+                let mode = modes.get(number - 1).ok_or_else(|| {
                     let across = match direction {
                         Direction::Across => " across",
                         _ => "",
@@ -116,11 +122,11 @@ impl BuildingSystem {
                 })?;
                 // The lowest first and the highest last mode bound all in between.
                 best = match best {
-                    Some(best) if (own.frequency < best.frequency) == (place > 0) => Some(best),
-                    _ => Some(*own),
+                    Some(best) if (mode.frequency < best.frequency) == (place > 0) => Some(best),
+                    _ => Some(*mode),
                 };
             }
-            found.extend(best.map(|own| DampedMode { number, ..own }));
+            found.extend(best.map(|mode| DampedMode { number, ..mode }));
         }
         Ok(found)
     }
@@ -129,7 +135,7 @@ impl BuildingSystem {
     /// Where fewer than `count` carry 1 % of the mass, those of sway, as many as there are floors.
     fn modes_along(&self, count: usize) -> Vec<DampedMode> {
         let mut tracks = self.tracks.iter();
-        if tracks.any(|own| own.direction != Direction::Along) {
+        if tracks.any(|track| track.direction != Direction::Along) {
             return self.modes_with_all_else_held(count);
         }
         let of_mode = |mode: &Mode| DampedMode::new(mode, self);
@@ -147,7 +153,8 @@ impl BuildingSystem {
         let equations = &self.equations;
         let is_held = |dof: usize| {
             let mut tracks = self.tracks.iter();
-            tracks.any(|own| own.direction != Direction::Across && own.dof - self.offset == dof)
+            tracks
+                .any(|track| track.direction != Direction::Across && track.dof - self.offset == dof)
         };
         let massed = (0..equations.len()).filter(|dof| equations.mass[*dof] > 0.0);
         let held: Vec<bool> = massed.map(is_held).collect();
@@ -200,8 +207,8 @@ impl BuildingSystem {
         let (values, vectors) = symmetric::eigen(&lower);
         let modes = values.into_iter().zip(vectors).map(|(value, vector)| {
             let mut shape = vec![0.0; equations.len()];
-            for (&dof, own) in along.iter().zip(vector) {
-                shape[dof] = own / equations.mass[dof].sqrt();
+            for (&dof, vector) in along.iter().zip(vector) {
+                shape[dof] = vector / equations.mass[dof].sqrt();
             }
             DampedMode::of_shape(value.sqrt(), &shape, self)
         });
@@ -224,7 +231,7 @@ impl BuildingSystem {
         let n = self.floors.len();
         let moved = |(dof, share): &(usize, f64)| {
             let mut along = self.tracks[..n].iter();
-            let floor = along.position(|own| own.dof - self.offset == *dof)?;
+            let floor = along.position(|track| track.dof - self.offset == *dof)?;
             Some((held.floor_dofs[floor], *share))
         };
         let links = self.inner_links.iter().map(|link| InnerLink {
@@ -277,12 +284,12 @@ impl DampedMode {
 /// What the springs of braces and panels that yield, and have no damping in proportion to stiffness, add to ω² of a mode; `shape` with
 /// a mass of 1 kg \[rad²/s²\].
 fn undamped_diagonals(building: &AssembledBuilding, shape: &[f64]) -> f64 {
-    let own = &building.discretization;
-    let damping = own.stick_model.single_springs();
-    let damping = damping.map(|own| own.proportional_damping);
+    let discretization = &building.discretization;
+    let damping = discretization.stick_model.single_springs();
+    let damping = damping.map(|damping| damping.proportional_damping);
     let springs = building.equations.springs.iter().zip(damping);
     let diagonals = springs
-        .zip(&own.spring_places)
+        .zip(&discretization.spring_places)
         .filter(|((_, damping), place)| {
             matches!(place, SpringPlace::Diagonal { .. }) && *damping == ProportionalDamping::None
         });

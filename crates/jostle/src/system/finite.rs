@@ -88,25 +88,25 @@ fn cause(building: &Building) -> String {
                 let storey = tiers.initial_storey(i)?;
                 Some((format!("storey {}", i + 1), least(&storey.stiffness)))
             });
-            let columns = tiers.frames.iter().flat_map(|own| {
-                let columns = own.frame.all_columns();
+            let columns = tiers.frames.iter().flat_map(|frame| {
+                let columns = frame.frame.all_columns();
                 columns.map(|([i, _], section)| {
-                    let height = own.frame.storey_heights[i];
-                    let name = format!("columns of frame {}, storey {}", own.name, i + 1);
+                    let height = frame.frame.storey_heights[i];
+                    let name = format!("columns of frame {}, storey {}", frame.name, i + 1);
                     (name, 12.0 * section.flexural_rigidity / height.powi(3))
                 })
             });
-            let in_space = tiers.space_frame.iter().flat_map(|own| {
-                own.members.iter().map(|member| {
-                    let length = own.length(member.place, &tiers.storey_heights);
+            let in_space = tiers.space_frame.iter().flat_map(|space_frame| {
+                space_frame.members.iter().map(|member| {
+                    let length = space_frame.length(member.place, &tiers.storey_heights);
                     let [first, second] = member.section.flexural_rigidity;
                     let least = 12.0 * first.min(second) / length.powi(3);
                     (MemberPlace::InSpace(member.place).to_string(), least)
                 })
             });
-            let given = tiers.matrices.iter().flat_map(|own| {
+            let given = tiers.matrices.iter().flat_map(|matrix| {
                 // Forces per displacement, not moments per rotation.
-                let rows = own.stiffness.iter().enumerate();
+                let rows = matrix.stiffness.iter().enumerate();
                 let rows = rows.filter(|(place, _)| place % 3 < 2);
                 rows.map(|(place, row)| (displacement_in_words(place), row[place]))
             });

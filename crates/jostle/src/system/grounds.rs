@@ -57,9 +57,9 @@ fn direction_of(system: &System, ports: &PortPair) -> [f64; 2] {
         for &(dof, weight) in port.row.entries() {
             let mut tracks = building.tracks.iter();
             let track = tracks.find(|track| track.dof == dof);
-            let moves = |axis: usize, own: Direction| {
+            let moves = |axis: usize, direction: Direction| {
                 mat.is_some_and(|mat| mat[axis] == dof)
-                    || track.is_some_and(|track| track.direction == own)
+                    || track.is_some_and(|track| track.direction == direction)
             };
             if moves(0, Direction::Along) {
                 direction[0] += weight;
@@ -119,14 +119,15 @@ impl<'a> RunGrounds<'a> {
             .map(of_building)
             .chain((0..system.walls.len()).map(of_wall))
             .collect();
-        let paths: Vec<GroundPath<'_>> = listed.iter().map(|own| motion.under(*own)).collect();
+        let paths: Vec<GroundPath<'_>> =
+            listed.iter().map(|ground| motion.under(*ground)).collect();
         let side = |ports: &PortPair, walls: [Option<usize>; 2], side: usize| {
             let wall = walls[side].map(|wall| system.buildings.len() + wall);
             ports.buildings()[side].or(wall)
         };
         let joint = |ports: &PortPair, walls: [Option<usize>; 2]| {
             let grounds = [side(ports, walls, 0)?, side(ports, walls, 1)?];
-            let [left, right] = grounds.map(|own| listed[own]);
+            let [left, right] = grounds.map(|ground| listed[ground]);
             (!motion.moves_alike(left, right)).then(|| JointGrounds {
                 grounds,
                 direction: direction_of(system, ports),
@@ -212,10 +213,10 @@ impl<'a> RunGrounds<'a> {
         };
         let points = &self.points[time];
         [
-            joint.apart(|own| points[own].displacement),
-            joint.apart(|own| points[own].velocity),
-            joint.apart(|own| {
-                let [along, across, _] = points[own].acceleration;
+            joint.apart(|ground| points[ground].displacement),
+            joint.apart(|ground| points[ground].velocity),
+            joint.apart(|ground| {
+                let [along, across, _] = points[ground].acceleration;
                 [along, across]
             }),
         ]
@@ -226,7 +227,7 @@ impl<'a> RunGrounds<'a> {
         let Some(Some(joint)) = self.sides.get(joint) else {
             return 0.0;
         };
-        joint.apart(|own| self.paths[own].at(t).displacement)
+        joint.apart(|ground| self.paths[ground].at(t).displacement)
     }
 
     /// Displacement of the ground of every building and wall of the model now, in its order: along the row, then those across

@@ -42,11 +42,15 @@ pub(super) fn influence(soil: &HalfSpace, rectangles: [Rectangle; 2], distance: 
     let [rise, sway] = surface(&grids, soil.poisson_ratio);
     // Unit displacement or rotation of either rectangle.
     let motion = |side: usize, arm: &dyn Fn(f64) -> f64| {
-        let own = |(index, grid): (usize, &Grid)| match index == side {
+        let displacements = |(index, grid): (usize, &Grid)| match index == side {
             true => grid.over_half(arm),
             false => grid.over_half(|_| 0.0),
         };
-        grids.iter().enumerate().flat_map(own).collect::<Vec<f64>>()
+        grids
+            .iter()
+            .enumerate()
+            .flat_map(displacements)
+            .collect::<Vec<f64>>()
     };
     let unit = |side: usize| motion(side, &|_| 1.0);
     let turn = |side: usize| motion(side, &|x| x - middles[side]);
@@ -231,11 +235,14 @@ mod tests {
         let rise = surface(&|x, y| (1.0 - nu) * (part(x, y) + part(y, x)));
         let sway = surface(&|x, y| (1.0 - nu) * part(x, y) + part(y, x));
         let motion = |side: usize, arm: &dyn Fn(f64) -> f64| {
-            let own = |(i, patch): (usize, &Patch)| match i / m == side {
+            let displacement = |(i, patch): (usize, &Patch)| match i / m == side {
                 true => arm(patch.at[0] - middles[side]),
                 false => 0.0,
             };
-            all.iter().enumerate().map(own).collect::<Vec<f64>>()
+            all.iter()
+                .enumerate()
+                .map(displacement)
+                .collect::<Vec<f64>>()
         };
         let unit = |side: usize| motion(side, &|_| 1.0);
         let turn = |side: usize| motion(side, &|x| x);
@@ -268,7 +275,7 @@ mod tests {
             for (count, limit) in [(if near { 14 } else { 10 }, 1e-9), (14, 1e-3)] {
                 let [sway, rocking] = whole(rectangles, distance, count);
                 // Displacements at the middles of patches are not quite reciprocal.
-                let mean = |own: &FullMatrix, i, j| 0.5 * (own[(i, j)] + own[(j, i)]);
+                let mean = |matrix: &FullMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
                 for (found, due) in [
                     (found.sway, mean(&sway, 0, 1)),
                     (found.rocking, mean(&rocking, 1, 3)),

@@ -80,7 +80,7 @@ impl LimitedEnd {
         let ends = springs.filter_map(|(spring, place)| {
             let (kind, [line, storey], member, at) = place_of(place, &discretization.frames)?;
             let mut limits = model.rotation_limits.iter().rev();
-            let limit = limits.find(|own| own.holds_for(kind, line, storey))?;
+            let limit = limits.find(|limit| limit.holds_for(kind, line, storey))?;
             Some(Self {
                 spring,
                 member,

@@ -15,8 +15,8 @@ impl System {
             self.buildings[index].members = if request.envelopes {
                 self.member_forces(index)
             } else {
-                let own = &self.buildings[index];
-                MemberForces::followed_always(&own.structure, own.at_rest())
+                let building = &self.buildings[index];
+                MemberForces::followed_always(&building.structure, building.at_rest())
             };
         }
         for wanted in &request.histories {

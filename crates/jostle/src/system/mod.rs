@@ -167,8 +167,8 @@ impl System {
     pub fn floors_of(&self, ports: &PortPair) -> [Option<usize>; 2] {
         ports.0.each_ref().map(|port| {
             let port = port.as_ref()?;
-            let own = self.structures().get(port.building)?;
-            let on_mat = own.discretization.mat.is_some() && port.height == 0.0;
+            let structure = self.structures().get(port.building)?;
+            let on_mat = structure.discretization.mat.is_some() && port.height == 0.0;
             if on_mat { Some(0) } else { port.floor }
         })
     }
@@ -244,30 +244,30 @@ impl System {
     /// # Errors
     /// A message when the node cannot be pushed or carries no mass.
     pub fn port(&self, building: usize, node: usize) -> Result<Port, String> {
-        let own = &self.buildings[building];
-        let dof = own
+        let system_building = &self.buildings[building];
+        let dof = system_building
             .equations
             .horizontal(node)
             .ok_or_else(|| "a contact cannot push the ground".to_owned())?;
-        let mass = own.equations.mass[dof];
+        let mass = system_building.equations.mass[dof];
         if mass <= 0.0 {
             return Err(format!(
                 "\"{}\" has no mass where it would be hit",
-                own.name
+                system_building.name
             ));
         }
-        let height = own.discretization.stick_model.nodes[node].y;
-        let floor = own
+        let height = system_building.discretization.stick_model.nodes[node].y;
+        let floor = system_building
             .floors
             .iter()
             .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE);
         Ok(Port {
             building,
-            row: Row::single(own.offset + dof),
+            row: Row::single(system_building.offset + dof),
             mass,
             floor: floor.map(|index| index + 1),
             height,
-            level: height + own.discretization.elevation,
+            level: height + system_building.discretization.elevation,
         })
     }
 }

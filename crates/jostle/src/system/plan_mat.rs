@@ -52,7 +52,7 @@ impl MatInPlan {
         let first = equations.single_springs;
         let sliders = slider.map(|_| first);
         let after = sliders.map_or(first, |first| first + 3 * bearings.len());
-        let mut own = Self {
+        let mut plan = Self {
             dofs,
             centre: *centre,
             bearings: bearings.clone(),
@@ -63,8 +63,8 @@ impl MatInPlan {
             sliders,
             ring: ring.map(|_| after),
         };
-        own.rows = bearings.iter().map(|at| own.point(*at)).collect();
-        Some(own)
+        plan.rows = bearings.iter().map(|at| plan.point(*at)).collect();
+        Some(plan)
     }
 
     /// Displacements of a point of the mat along x and across, over the displacements at which its own stand.

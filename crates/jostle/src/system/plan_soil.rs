@@ -124,11 +124,11 @@ fn springs_in_plan(
     let rocking = [along.rocking_stiffness, across.rocking_stiffness];
     let rocking = matches!(ground, Ground::HalfSpace(_)).then_some(rocking);
     let bed = foundation.bed_in_plan(slower.vertical_stiffness, rocking)?;
-    let arms: [fn(&BedSpring) -> f64; 2] = [|own| own.at, |own| own.across];
+    let arms: [fn(&BedSpring) -> f64; 2] = [|spring| spring.at, |spring| spring.across];
     for (springs, arm) in [along, across].into_iter().zip(arms) {
         springs.vertical_stiffness = slower.vertical_stiffness;
         springs.vertical_damping = slower.vertical_damping;
-        let turned = bed.iter().map(|own| own.stiffness * arm(own) * arm(own));
+        let turned = bed.iter().map(|bed| bed.stiffness * arm(bed) * arm(bed));
         springs.rocking_stiffness = turned.sum();
         if rocking.is_none() {
             // Dashpots stand beside the springs, and share their sum as they do.

@@ -50,22 +50,24 @@ impl EndHinge {
         place: MemberPlace,
     ) -> Vec<Self> {
         let behind = end_stiffnesses(&building.discretization.stick_model);
-        let own = [MemberEnd::First, MemberEnd::Last].into_iter();
-        let own = own.flat_map(|end| {
+        let ends = [MemberEnd::First, MemberEnd::Last].into_iter();
+        let places = ends.flat_map(|end| {
             let places = SpringPlace::of_hinges(place, end).into_iter();
-            places.map(move |own| (own, end))
+            places.map(move |place| (place, end))
         });
-        let own = own.filter_map(|(own, end)| {
-            let own = match frame {
-                Some(frame) => own.in_frame(frame + 1)?,
-                None => own,
+        let hinge_places = places.filter_map(|(hinge, end)| {
+            let hinge = match frame {
+                Some(frame) => hinge.in_frame(frame + 1)?,
+                None => hinge,
             };
-            Some((own, end))
+            Some((hinge, end))
         });
-        let own: Vec<(SpringPlace, MemberEnd)> = own.collect();
+        let hinge_places: Vec<(SpringPlace, MemberEnd)> = hinge_places.collect();
         let springs = building.discretization.spring_places.iter().enumerate();
         let hinges = springs.filter_map(|(spring, place)| {
-            let (_, end) = own.iter().find(|(own, _)| own == place)?;
+            let (_, end) = hinge_places
+                .iter()
+                .find(|(candidate, _)| candidate == place)?;
             Some(Self {
                 end: *end,
                 spring,
@@ -96,13 +98,13 @@ impl MemberRating {
         member: usize,
         capacity: &MemberCapacity,
     ) -> Self {
-        let own = &building.members.members[member];
+        let member_sections = &building.members.members[member];
         Self {
             building: index,
             part: RatedPart::Member(member),
-            sections: own.sections.clone(),
+            sections: member_sections.sections.clone(),
             capacity: capacity.clone(),
-            hinges: EndHinge::of_member(building, own.frame, own.place),
+            hinges: EndHinge::of_member(building, member_sections.frame, member_sections.place),
         }
     }
 

@@ -68,7 +68,7 @@ pub(super) enum Ground<'a> {
 impl<'a> Ground<'a> {
     /// Under a foundation, the one of this number of those on the soil of the model.
     pub(super) fn of(model: &'a Model, foundation: &Foundation, number: usize) -> Option<Self> {
-        if let Some(ground) = foundation.uplift.and_then(|own| own.ground) {
+        if let Some(ground) = foundation.uplift.and_then(|uplift| uplift.ground) {
             return Some(Self::Springs(ground));
         }
         let soil = model.soil.as_ref()?;
@@ -101,13 +101,13 @@ impl<'a> Ground<'a> {
                 rocking_damping: damping[2],
                 ..FoundationSprings::default()
             },
-            Self::Springs(own) => {
-                let [sway_stiffness, sway_damping] = own.sway.unwrap_or_default();
+            Self::Springs(springs) => {
+                let [sway_stiffness, sway_damping] = springs.sway.unwrap_or_default();
                 FoundationSprings {
                     sway_stiffness,
                     sway_damping,
-                    vertical_stiffness: own.vertical_stiffness,
-                    vertical_damping: own.vertical_damping,
+                    vertical_stiffness: springs.vertical_stiffness,
+                    vertical_damping: springs.vertical_damping,
                     ..FoundationSprings::default()
                 }
             }
@@ -124,7 +124,7 @@ impl<'a> Ground<'a> {
         springs: &mut FoundationSprings,
     ) -> Result<Subgrade, String> {
         let sways = !matches!(self, Self::Springs(GroundSprings { sway: None, .. }));
-        let own = |springs: &FoundationSprings, bed| Subgrade {
+        let subgrade = |springs: &FoundationSprings, bed| Subgrade {
             stiffness: [springs.sway_stiffness, 0.0, springs.rocking_stiffness],
             damping: [springs.sway_damping, 0.0, springs.rocking_damping],
             sways,
@@ -135,24 +135,24 @@ impl<'a> Ground<'a> {
             Self::Given([stiffness, damping]) => Ok(Subgrade {
                 stiffness: *stiffness,
                 damping: *damping,
-                ..own(springs, Vec::new())
+                ..subgrade(springs, Vec::new())
             }),
             _ if foundation.uplift.is_none() => Ok(Subgrade {
                 vertical_damping: 0.0,
-                ..own(springs, Vec::new())
+                ..subgrade(springs, Vec::new())
             }),
             _ => {
                 let rocking =
                     matches!(self, Self::HalfSpace(_)).then_some(springs.rocking_stiffness);
                 let bed = foundation.bed(springs.vertical_stiffness, rocking)?;
-                let turned = bed.iter().map(|own| own.stiffness * own.at * own.at);
+                let turned = bed.iter().map(|bed| bed.stiffness * bed.at * bed.at);
                 springs.rocking_stiffness = turned.sum();
                 if rocking.is_none() {
                     // Dashpots stand beside the springs, and share their sum as they do.
                     let ratio = springs.vertical_damping / springs.vertical_stiffness;
                     springs.rocking_damping = ratio * springs.rocking_stiffness;
                 }
-                Ok(own(springs, bed))
+                Ok(subgrade(springs, bed))
             }
         }
     }
@@ -317,7 +317,7 @@ pub(super) fn matrices(
                         width: place.foundation.width,
                     });
                     // Two rectangles influence each other as their mirror image does.
-                    let of = |own: &Rectangle| (own.length, own.width);
+                    let of = |rectangle: &Rectangle| (rectangle.length, rectangle.width);
                     if of(&rectangles[0]) > of(&rectangles[1]) {
                         rectangles.reverse();
                     }
@@ -408,7 +408,7 @@ pub(super) struct Between {
 /// # Errors
 /// The foundation for which nothing positive is left.
 pub(super) fn split(matrices: &[FullMatrix; 2], count: usize) -> Result<Split, usize> {
-    let mut own = vec![[[0.0; 3]; 2]; count];
+    let mut alone = vec![[[0.0; 3]; 2]; count];
     let mut between = Vec::new();
     for (part, matrix) in matrices.iter().enumerate() {
         let mut rest = vec![[[0.0; 2]; 2]; count];
@@ -460,10 +460,13 @@ pub(super) fn split(matrices: &[FullMatrix; 2], count: usize) -> Result<Split, u
                 return Err(k);
             }
             let mean = 0.5 * (block[0][1] + block[1][0]);
-            own[k][part] = [block[0][0], mean, block[1][1]];
+            alone[k][part] = [block[0][0], mean, block[1][1]];
         }
     }
-    Ok(Split { own, between })
+    Ok(Split {
+        own: alone,
+        between,
+    })
 }
 
 type Square = [[f64; 2]; 2];
@@ -532,34 +535,34 @@ pub(super) fn links(
 ) -> Vec<LinkElement> {
     let port = |foundation: usize, shares: [f64; 2]| {
         let (building, place) = &founded[foundation];
-        let own = &buildings[*building];
+        let building_system = &buildings[*building];
         let dofs = [place.sway, Some(place.turning)];
         let entries = dofs.into_iter().zip(shares);
         let entries = entries.filter_map(|(dof, share)| Some((dof?, share)));
         let row: Row = entries.filter(|(_, share)| *share != 0.0).collect();
-        let row_of_own = row.moved_down(own.offset);
+        let row_of_own = row.moved_down(building_system.offset);
         (!row.is_empty()).then(|| Port {
             building: *building,
             row,
-            mass: row_of_own.moving_mass(&own.equations.mass),
+            mass: row_of_own.moving_mass(&building_system.equations.mass),
             floor: None,
             height: 0.0,
-            level: own.discretization.elevation,
+            level: building_system.discretization.elevation,
         })
     };
     between
         .iter()
         .enumerate()
-        .map(|(index, own)| LinkElement {
+        .map(|(index, between)| LinkElement {
             link: first + index,
             ports: PortPair([
-                port(own.foundations[0], own.shares[0]),
-                port(own.foundations[1], own.shares[1]),
+                port(between.foundations[0], between.shares[0]),
+                port(between.foundations[1], between.shares[1]),
             ]),
             inside: false,
             height: 0.0,
-            stiffness: own.stiffness,
-            damping: own.damping,
+            stiffness: between.stiffness,
+            damping: between.damping,
             closing_at_rest: 0.0,
             law: LinkLaw::Linear,
         })
@@ -598,17 +601,17 @@ mod tests {
         let found = split(&[full(entries), full(singular)], 2).expect("positive parts");
         for (part, rows) in [entries, singular].into_iter().enumerate() {
             let mut sum = [[0.0; 4]; 4];
-            for (k, own) in found.own.iter().enumerate() {
-                let [uu, ut, tt] = own[part];
+            for (k, matrices) in found.own.iter().enumerate() {
+                let [uu, ut, tt] = matrices[part];
                 sum[2 * k][2 * k] += uu;
                 sum[2 * k][2 * k + 1] += ut;
                 sum[2 * k + 1][2 * k] += ut;
                 sum[2 * k + 1][2 * k + 1] += tt;
             }
-            for own in &found.between {
-                let size = [own.stiffness, own.damping][part];
-                assert!(own.stiffness >= 0.0 && own.damping >= 0.0);
-                let [a, b] = own.shares;
+            for spring in &found.between {
+                let size = [spring.stiffness, spring.damping][part];
+                assert!(spring.stiffness >= 0.0 && spring.damping >= 0.0);
+                let [a, b] = spring.shares;
                 let row = [a[0], a[1], -b[0], -b[1]];
                 for i in 0..4 {
                     for j in 0..4 {

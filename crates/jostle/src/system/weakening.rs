@@ -30,7 +30,7 @@ impl Weakening {
         weakening
             .map(|(storey, line, column)| {
                 let places = building.discretization.spring_places.iter().enumerate();
-                let own = places.filter(|(_, place)| match place {
+                let places = places.filter(|(_, place)| match place {
                     SpringPlace::Shear {
                         storey: at,
                         line: on,
@@ -39,7 +39,7 @@ impl Weakening {
                     _ => false,
                 });
                 Self {
-                    shear: own.map(|(spring, _)| spring).collect(),
+                    shear: places.map(|(spring, _)| spring).collect(),
                     hinges: EndHinge::of_member(
                         building,
                         None,

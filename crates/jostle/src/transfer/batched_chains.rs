@@ -156,13 +156,13 @@ impl BatchedChains {
             scratch,
         };
         for group in &self.groups {
-            let own = rest.take(group);
+            let parts = rest.take(group);
             // One for each coupling distance.
             match (group.reach.band, group.reach.near) {
-                (1, 2) => own.substitute::<1, 2, FORWARD>(load),
-                (1, 4) => own.substitute::<1, 4, FORWARD>(load),
-                (3, 1) => own.substitute::<3, 1, FORWARD>(load),
-                _ => own.substitute::<3, 2, FORWARD>(load),
+                (1, 2) => parts.substitute::<1, 2, FORWARD>(load),
+                (1, 4) => parts.substitute::<1, 4, FORWARD>(load),
+                (3, 1) => parts.substitute::<3, 1, FORWARD>(load),
+                _ => parts.substitute::<3, 2, FORWARD>(load),
             }
         }
     }

@@ -247,10 +247,10 @@ fn moves(layout: &Layout) -> Vec<Pass> {
 impl KeptElement {
     /// Passes an element of one column line (theory, Eq. R2).
     fn pass(column: usize, node: Option<usize>, element: Transfer, s: &mut FullMatrix) -> Self {
-        let (size, own) = (s.rows(), 3 * column);
+        let (size, first) = (s.rows(), 3 * column);
         let u = &element.matrix;
         let rows: Vec<[f64; 3]> = (0..size)
-            .map(|k| std::array::from_fn(|i| s[(own + i, k)]))
+            .map(|k| std::array::from_fn(|i| s[(first + i, k)]))
             .collect();
         // U_aa S_j and U_ba S_j, column by column.
         let through = |block: usize, k: usize, i: usize| -> f64 {
@@ -259,17 +259,17 @@ impl KeptElement {
         let mut delta = [[0.0; 3]; 3];
         for (i, row) in delta.iter_mut().enumerate() {
             for (k, value) in row.iter_mut().enumerate() {
-                *value = through(3, own + k, i) + u[3 + i][3 + k];
+                *value = through(3, first + k, i) + u[3 + i][3 + k];
             }
         }
         let inverse = inverse(&delta);
         let spread: Vec<[f64; 3]> = (0..size)
             .map(|row| {
                 std::array::from_fn(|k| {
-                    if (own..own + 3).contains(&row) {
-                        through(0, own + k, row - own) + u[row - own][3 + k]
+                    if (first..first + 3).contains(&row) {
+                        through(0, first + k, row - first) + u[row - first][3 + k]
                     } else {
-                        s[(row, own + k)]
+                        s[(row, first + k)]
                     }
                 })
             })
@@ -279,15 +279,15 @@ impl KeptElement {
             .map(|row| std::array::from_fn(|k| (0..3).map(|p| row[p] * inverse[p][k]).sum()))
             .collect();
         for k in 0..size {
-            let is_own = (own..own + 3).contains(&k);
+            let is_own = (first..first + 3).contains(&k);
             let pushed: [f64; 3] = std::array::from_fn(|i| through(3, k, i));
             let carried: [f64; 3] = std::array::from_fn(|i| through(0, k, i));
             for row in 0..size {
                 s[(row, k)] = if is_own {
-                    spread_inverse[row][k - own]
+                    spread_inverse[row][k - first]
                 } else {
-                    let before = if (own..own + 3).contains(&row) {
-                        carried[row - own]
+                    let before = if (first..first + 3).contains(&row) {
+                        carried[row - first]
                     } else {
                         s[(row, k)]
                     };
@@ -310,8 +310,8 @@ impl KeptElement {
 
     /// Replaces ε behind the element by ε ahead of it; returns t.
     fn lift(&self, epsilon: &mut [f64], [f_x, f_y, f_m]: [f64; 3]) -> Vec<f64> {
-        let (own, u) = (3 * self.column, &self.element.matrix);
-        let behind: [f64; 3] = std::array::from_fn(|k| epsilon[own + k]);
+        let (first, u) = (3 * self.column, &self.element.matrix);
+        let behind: [f64; 3] = std::array::from_fn(|k| epsilon[first + k]);
         let force = [f_m, f_x, f_y];
         let forced: [f64; 3] = std::array::from_fn(|i| {
             force[i] + (0..3).map(|p| u[3 + i][p] * behind[p]).sum::<f64>()
@@ -319,7 +319,7 @@ impl KeptElement {
         let t: [f64; 3] =
             std::array::from_fn(|i| -(0..3).map(|p| self.inverse[i][p] * forced[p]).sum::<f64>());
         for i in 0..3 {
-            epsilon[own + i] = (0..3).map(|p| u[i][p] * behind[p]).sum();
+            epsilon[first + i] = (0..3).map(|p| u[i][p] * behind[p]).sum();
         }
         for (value, row) in epsilon.iter_mut().zip(&self.spread) {
             *value += (0..3).map(|p| row[p] * t[p]).sum::<f64>();
@@ -329,19 +329,19 @@ impl KeptElement {
 
     /// Replaces b ahead of the element by b behind it.
     fn lower(&self, b: &mut [f64], t: &[f64]) {
-        let (own, u) = (3 * self.column, &self.element.matrix);
+        let (first, u) = (3 * self.column, &self.element.matrix);
         // S_jo b_o
         let mut moved = [0.0; 3];
         for (k, row) in self.rows.iter().enumerate() {
-            if !(own..own + 3).contains(&k) {
+            if !(first..first + 3).contains(&k) {
                 (0..3).for_each(|i| moved[i] += row[i] * b[k]);
             }
         }
         let ahead: [f64; 3] = std::array::from_fn(|i| {
-            b[own + i] - (0..3).map(|p| u[3 + i][p] * moved[p]).sum::<f64>()
+            b[first + i] - (0..3).map(|p| u[3 + i][p] * moved[p]).sum::<f64>()
         });
         for i in 0..3 {
-            b[own + i] = t[i] + (0..3).map(|p| self.inverse[i][p] * ahead[p]).sum::<f64>();
+            b[first + i] = t[i] + (0..3).map(|p| self.inverse[i][p] * ahead[p]).sum::<f64>();
         }
     }
 

@@ -18,12 +18,13 @@ impl Band {
     /// couplings reach too far.
     pub(super) fn new(first: usize, starts: &[usize], rows: &[u32]) -> Option<Self> {
         let order = starts.len() - 1;
-        let own = || (first..order).flat_map(|c| (starts[c]..starts[c + 1]).map(move |p| (c, p)));
+        let entries =
+            || (first..order).flat_map(|c| (starts[c]..starts[c + 1]).map(move |p| (c, p)));
         let reach = |(column, place): (usize, usize)| rows[place] as usize - column;
-        let widest = own().map(reach).max().unwrap_or(0);
+        let widest = entries().map(reach).max().unwrap_or(0);
         let width = WIDTHS.into_iter().find(|width| *width >= widest)?;
         let mut places = vec![Place::Zero; (order - first) * width];
-        for (column, place) in own() {
+        for (column, place) in entries() {
             places[(column - first) * width + reach((column, place)) - 1] =
                 Place::Lower(place as u32);
         }
@@ -68,8 +69,8 @@ impl Band {
 fn forward<const WIDTH: usize>(entries: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
     // The current column and the following ones.
     let mut ahead = [0.0; WIDTH];
-    for (own, value) in ahead.iter_mut().zip(&*load) {
-        *own = *value;
+    for (entry, value) in ahead.iter_mut().zip(&*load) {
+        *entry = *value;
     }
     let columns = entries.as_chunks::<WIDTH>().0.iter().zip(inverse_pivots);
     for (column, (lower, inverse_pivot)) in columns.enumerate() {

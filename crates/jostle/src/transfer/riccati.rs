@@ -282,11 +282,11 @@ impl RiccatiSweep {
         let matrix = StepMatrix::new(1.0, -shift);
         self.compose(&matrix, &self.initial_tangents, factor);
         factor.touched.fill(true);
-        let never_fails = self.eliminate(factor, |row, own, pivot| {
+        let never_fails = self.eliminate(factor, |row, diagonal, pivot| {
             // Springs that yield are part of the stiffness here as well.
             let inertia_part = shift * self.mass[row];
-            let scale = (own + inertia_part).abs() + inertia_part.abs();
-            inertia.growth = (own - pivot).abs().max(inertia.growth * scale) / scale;
+            let scale = (diagonal + inertia_part).abs() + inertia_part.abs();
+            inertia.growth = (diagonal - pivot).abs().max(inertia.growth * scale) / scale;
             // A part behind the cut resonates with its end fixed: any small pivot serves, its sign does not matter.
             let least = f64::EPSILON * scale;
             let pivot = if pivot.abs() < least { least } else { pivot };
@@ -374,12 +374,12 @@ impl RiccatiSweep {
         } = factor;
         work.fill(0.0);
         for row in (0..self.mass.len()).filter(|&row| touched[row]) {
-            let own = diagonal[row];
+            let diagonal = diagonal[row];
             let entries = self.before_starts[row]..self.before_starts[row + 1];
             for ((column, _), value) in self.before[entries.clone()].iter().zip(&before[entries]) {
                 work[*column as usize] = *value;
             }
-            let mut pivot = own;
+            let mut pivot = diagonal;
             let reached = self.reached_starts[row]..self.reached_starts[row + 1];
             let columns = self.reached[reached.clone()].iter();
             for (&column, &position) in columns.zip(&self.positions[reached]) {
@@ -394,7 +394,7 @@ impl RiccatiSweep {
                 lower[position] = coupling;
                 self.packed.set_lower(packed, position, coupling);
             }
-            let pivot = accept(row, own, pivot)?;
+            let pivot = accept(row, diagonal, pivot)?;
             pivots[row] = pivot;
             inverse_pivots[row] = 1.0 / pivot;
             self.packed
@@ -405,8 +405,8 @@ impl RiccatiSweep {
 }
 
 /// Accepts a pivot that is not dominated by rounding errors.
-fn sound(row: usize, own: f64, pivot: f64) -> Result<f64, NotPositive> {
-    if pivot > 1e-14 * own.abs() && pivot.is_finite() {
+fn sound(row: usize, diagonal: f64, pivot: f64) -> Result<f64, NotPositive> {
+    if pivot > 1e-14 * diagonal.abs() && pivot.is_finite() {
         Ok(pivot)
     } else {
         Err(NotPositive { dof: row })

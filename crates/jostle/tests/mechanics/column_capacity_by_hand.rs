@@ -173,18 +173,18 @@ fn modal_runs_follow_the_compression_alone() {
         &slow(),
         None,
         [1, 2].map(|line| {
-            let mut own = capacity(line);
+            let mut capacity = capacity(line);
             let points = [-4e5, EDGE - 1.0, EDGE + 1.0, 1e6];
             let points = points.map(|compression| [compression, strength(compression)]);
-            own.rules[0].shear = Some(ShearCapacity {
+            capacity.rules[0].shear = Some(ShearCapacity {
                 steady: CapacityLine::new(points.to_vec()),
                 degrading: CapacityLine::default(),
                 by_ductility: CapacityLine::default(),
                 limit: f64::INFINITY,
             });
             let even = CapacityLine::new(vec![[-4e5, 3e5], [1e6, 3e5]]);
-            own.rules[0].bending = [even.clone(), even];
-            own
+            capacity.rules[0].bending = [even.clone(), even];
+            capacity
         }),
     );
     // The strong lobe lifts the left column and presses the right one, or the other way round; the weak one the other.
@@ -235,10 +235,13 @@ fn modal_runs_look_within_their_steps() {
         let greatest = |every: u32| {
             let instants = quarters().filter(|(quarter, _)| quarter % every == 0);
             let all = instants.map(|(_, t)| (t, at(t)));
-            all.fold(
-                (0.0, 0.0),
-                |best, own| if own.1 > best.1 { own } else { best },
-            )
+            all.fold((0.0, 0.0), |best, candidate| {
+                if candidate.1 > best.1 {
+                    candidate
+                } else {
+                    best
+                }
+            })
         };
         let ((time, due), (_, at_ends)) = (greatest(1), greatest(4));
         assert!(

@@ -115,23 +115,23 @@ fn joints_of_a_portal_follow_its_closed_form() {
         Vec::new(),
     );
     let system = System::assemble(&model).expect("sound");
-    let own = &system.buildings[0];
-    let nodes = &own.discretization.stick_model.nodes;
+    let building = &system.buildings[0];
+    let nodes = &building.discretization.stick_model.nodes;
     let found = nodes.iter().position(|node| node.x == 0.0 && node.y == h);
     let node = found.expect("a node there");
-    let mut load = vec![0.0; own.equations.len()];
-    load[own.equations.horizontal(node).expect("free")] += p;
-    let displacement = solve_once::<DirectStiffness>(own, &StepMatrix::STATIC, &load);
+    let mut load = vec![0.0; building.equations.len()];
+    load[building.equations.horizontal(node).expect("free")] += p;
+    let displacement = solve_once::<DirectStiffness>(building, &StepMatrix::STATIC, &load);
     let mut state = State::at_rest(&system, 0.0);
     state.displacement = displacement.expect("it stands");
     state.acceleration.fill(0.0);
-    let mut values = vec![0.0; own.members.forms.len()];
-    own.member_forces(&state, &[], 0.0, |form, value| values[form] = value);
+    let mut values = vec![0.0; building.members.forms.len()];
+    building.member_forces(&state, &[], 0.0, |form, value| values[form] = value);
     let k = i_beam / i_column * h / l;
     let moment = p * h / 2.0 * 3.0 * k / (6.0 * k + 1.0);
     // It falls linearly from +M to −M over the span.
     let face = moment * (1.0 - 2.0 * HALF / l);
-    for (joint, due) in own
+    for (joint, due) in building
         .members
         .joints
         .iter()
@@ -177,20 +177,20 @@ fn from_histories(model: &Model, system: &System, outcome: &Outcome) -> Vec<[f64
         let mut values = Vec::new();
         let mut sections = row.iter();
         for [building, member] in history.members() {
-            let own = &system.buildings[*building].members.members[*member];
-            for section in &own.sections {
+            let member = &system.buildings[*building].members.members[*member];
+            for section in &member.sections {
                 values.push((
                     *building,
-                    own.place,
+                    member.place,
                     section.at,
                     *sections.next().expect("full"),
                 ));
             }
         }
         let at = |building: usize, place: MemberPlace, end: SectionAt| {
-            let found = values
-                .iter()
-                .find(|(own, known, at, _)| (*own, *known, *at) == (building, place, end));
+            let found = values.iter().find(|(candidate, known, at, _)| {
+                (*candidate, *known, *at) == (building, place, end)
+            });
             found.map_or([0.0; 3], |(.., [axial, shear, moment, ..])| {
                 [*axial, *shear, *moment]
             })
@@ -290,9 +290,12 @@ fn joints_do_not_choose_the_worst_instant() {
                 .joints
                 .iter()
                 .filter_map(|joint| joint.ratio.as_ref());
-            let of_members = building.members.iter().filter_map(|own| own.ratio.as_ref());
-            let joint = of_joints.map(|own| own.shear).fold(0.0, f64::max);
-            let member = of_members.map(|own| own.bending).fold(0.0, f64::max);
+            let of_members = building
+                .members
+                .iter()
+                .filter_map(|member| member.ratio.as_ref());
+            let joint = of_joints.map(|joint| joint.shear).fold(0.0, f64::max);
+            let member = of_members.map(|member| member.bending).fold(0.0, f64::max);
             assert!(joint > 2.0 * member && member > 0.0, "{joint} and {member}");
             assert_eq!(worst.ratio, member, "{solver:?}");
             let at = building.capacity.as_ref().expect("rated").worst.at_s;

@@ -556,7 +556,7 @@ fn columns_carry_the_overturning_moment() {
     let mut overturning = 0.0;
     for (floor, force) in push.into_iter().enumerate() {
         let height = 3.2 * (floor + 1) as f64;
-        let heights = system.buildings[0].floors.iter().map(|own| own.height);
+        let heights = system.buildings[0].floors.iter().map(|floor| floor.height);
         let height = heights.min_by(|a, b| (a - height).abs().total_cmp(&(b - height).abs()));
         loads.push([0.0, height.expect("a floor"), force, 0.0]);
         overturning += force * height.expect("a floor");

@@ -158,7 +158,9 @@ fn peaks_are_those_of_histories() {
                 continue;
             };
             let values = history.column(*column).expect("a column");
-            let greatest = values.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+            let greatest = values
+                .iter()
+                .fold(0.0_f64, |most, column| most.max(column.abs()));
             let off = peak.size() / greatest - 1.0;
             assert!((-1e-9..2e-2).contains(&off), "{solver:?} {column:?}: {off}");
             kinds.insert((column.owner.name(), column.kind));
@@ -173,7 +175,7 @@ fn peaks_are_those_of_histories() {
         let closing = outcome.peaks.closing(3).value;
         assert!(closing > 0.03 && closing < 0.05, "{closing}");
         let force = outcome.peaks.gap_force(0).value;
-        let strongest = outcome.impacts.iter().map(|own| own.peak_force);
+        let strongest = outcome.impacts.iter().map(|impact| impact.peak_force);
         assert!(force >= strongest.fold(0.0, f64::max));
         assert!(outcome.peaks.work(Owner::Link(0)) > 0.0);
     }

@@ -156,7 +156,7 @@ fn fibres_in_space_allocate_nothing_either() {
         spring: bar,
         material: FibreMaterial::Bar,
     });
-    let own = ColumnFibres {
+    let fibres = ColumnFibres {
         length,
         at_ends: [true, true],
         fibres: parts.chain(bars).collect(),
@@ -185,7 +185,7 @@ fn fibres_in_space_allocate_nothing_either() {
             lines_x: vec![0.0, 5.0],
             lines_y: vec![0.0],
             members: members.collect(),
-            fibres: columns.map(|place| (place, own.clone())).into(),
+            fibres: columns.map(|place| (place, fibres.clone())).into(),
             ..SpaceFrame::default()
         }),
         ..Tiers::default()

@@ -41,9 +41,9 @@ fn irregular(options: &ImportOptions) -> Imported {
 /// The flexibility of a building in space, of its stiffness.
 pub(crate) fn flexibility_in_space(imported: &Imported) -> Vec<Vec<f64>> {
     let system = System::assemble(&model(imported).model).expect("sound");
-    let own = &system.buildings[0];
-    let places = 0..3 * own.floors.len();
-    places.map(|place| column(own, place)).collect()
+    let building = &system.buildings[0];
+    let places = 0..3 * building.floors.len();
+    places.map(|place| column(building, place)).collect()
 }
 
 /// The flexibility that stands in a model.
@@ -68,7 +68,7 @@ fn flexibility(imported: &Imported) -> Vec<Vec<f64>> {
 /// Rows of numbers between comments.
 pub(crate) fn numbers(text: &str) -> Vec<Vec<f64>> {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
-    let number = |own: &str| own.parse().expect("a number");
+    let number = |word: &str| word.parse().expect("a number");
     lines
         .map(|line| line.split_whitespace().map(number).collect())
         .collect()
@@ -115,10 +115,10 @@ fn an_irregular_frame_in_one_plane() {
         };
         let found = flexibility(&irregular(&options));
         for (i, row) in found.iter().enumerate() {
-            let own: Vec<f64> = (0..3)
+            let opensee: Vec<f64> = (0..3)
                 .map(|j| expected[3 * i + axis][3 * j + axis])
                 .collect();
-            assert!(difference(row, &own) < 1e-7, "{row:?} {own:?}");
+            assert!(difference(row, &opensee) < 1e-7, "{row:?} {opensee:?}");
         }
     }
 }

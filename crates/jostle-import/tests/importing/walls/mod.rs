@@ -20,8 +20,8 @@ fn differences(found: &[Vec<f64>], expected: &[Vec<f64>]) -> [f64; 2] {
         for j in 0..expected.len() {
             let size = (expected[i][i] * expected[j][j]).sqrt();
             let off = (found[i][j] - expected[i][j]).abs() / size;
-            let own = &mut worst[usize::from(i != j)];
-            *own = own.max(off);
+            let greatest = &mut worst[usize::from(i != j)];
+            *greatest = greatest.max(off);
         }
     }
     worst
@@ -108,8 +108,11 @@ fn cores_and_coupled_walls_are_near_to_shells() {
             .collect();
         let imported = building(text, &floors);
         let (found, expected) = (flexibility_in_space(&imported), numbers(expected));
-        let [own, beside] = differences(&found, &expected);
-        assert!(own < 0.12 && beside < 0.07, "{name}: {own:.3} {beside:.3}");
+        let [difference, beside] = differences(&found, &expected);
+        assert!(
+            difference < 0.12 && beside < 0.07,
+            "{name}: {difference:.3} {beside:.3}"
+        );
         for place in 3 * (storeys as usize - 1)..3 * storeys as usize {
             let off = found[place][place] / expected[place][place] - 1.0;
             assert!(off.abs() < 0.07, "{name}, {place}: {off:.3}");
@@ -118,7 +121,7 @@ fn cores_and_coupled_walls_are_near_to_shells() {
             imported
                 .remarks
                 .iter()
-                .any(|own| own.contains("wide columns")),
+                .any(|difference| difference.contains("wide columns")),
             "{:?}",
             imported.remarks
         );

@@ -173,12 +173,12 @@ fn read_format(header: &Header, columns: usize) -> Result<Fixed, RecordError> {
 
 /// The times must have the step of the header.
 fn check_times(header: &Header, times: &Times, step: f64) -> Result<(), RecordError> {
-    let own = times.step_given(Some(step))?;
-    if (own / step - 1.0).abs() <= 1e-3 {
+    let step_given = times.step_given(Some(step))?;
+    if (step_given / step - 1.0).abs() <= 1e-3 {
         return Ok(());
     }
     let (_, line) = header.need(RATE)?;
-    let problem = format!("the header states a step of {step} s, the times have {own} s");
+    let problem = format!("the header states a step of {step} s, the times have {step_given} s");
     Err(malformed(FORMAT, line, problem))
 }
 

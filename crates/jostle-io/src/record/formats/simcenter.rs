@@ -75,12 +75,12 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
     let fault = |problem: String| malformed(FORMAT, 1, problem);
     for (component, step, values) in found {
         let Some(values) = values else { continue };
-        if step.is_some_and(|own| own <= 0.0) {
+        if step.is_some_and(|step| step <= 0.0) {
             return Err(fault(format!(
                 "dT of data_{component} must be greater than 0"
             )));
         }
-        if let Some(count) = count.filter(|own| *own != values.len()) {
+        if let Some(count) = count.filter(|candidate| *candidate != values.len()) {
             return Err(fault(format!(
                 "data_{component} has {} values, numSteps says {count}",
                 values.len()
@@ -111,7 +111,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
 pub(crate) fn is_table(bytes: &[u8]) -> bool {
     let mut marks = without_mark(bytes)
         .iter()
-        .filter(|own| !own.is_ascii_whitespace());
+        .filter(|without_mark| !without_mark.is_ascii_whitespace());
     marks.next() == Some(&b'{') && marks.next() == Some(&b'"')
 }
 

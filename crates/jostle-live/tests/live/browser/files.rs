@@ -25,14 +25,14 @@ fn files_are_kept() {
     let study = page.text("window.files[1]");
     let base = jostle_io::ModelTree::parse("paper", &model, jostle_io::Format::Toml, Path::new(""))
         .unwrap();
-    let own = study
+    let rest = study
         .lines()
         .filter(|line| !line.starts_with("base ="))
         .collect::<Vec<_>>()
         .join("\n");
     let read = jostle_io::StudyFile::parse(
         "study",
-        &own,
+        &rest,
         jostle_io::Format::Toml,
         Path::new(""),
         Some(base),

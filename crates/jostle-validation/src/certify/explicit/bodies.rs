@@ -152,8 +152,8 @@ impl Bodies {
             groups: vec![0; n],
         };
         for (index, building) in system.buildings.iter().enumerate() {
-            let (own, offset) = (&building.equations, building.offset);
-            if own.mass.iter().any(|mass| *mass <= 0.0) {
+            let (equations, offset) = (&building.equations, building.offset);
+            if equations.mass.iter().any(|mass| *mass <= 0.0) {
                 return Err(format!(
                     "\"{}\" has displacements without mass",
                     building.name
@@ -166,21 +166,23 @@ impl Bodies {
                 return Err("displacements under self weight are not part of this".into());
             }
             let range = building.range();
-            bodies.mass[range.clone()].copy_from_slice(&own.mass);
-            bodies.alpha[range.clone()].fill(own.alpha);
-            bodies.driven[0][range.clone()].copy_from_slice(&own.driven_mass);
+            bodies.mass[range.clone()].copy_from_slice(&equations.mass);
+            bodies.alpha[range.clone()].fill(equations.alpha);
+            bodies.driven[0][range.clone()].copy_from_slice(&equations.driven_mass);
             if building.is_in_space() {
-                bodies.driven[1][range.clone()].copy_from_slice(&own.driven_across);
+                bodies.driven[1][range.clone()].copy_from_slice(&equations.driven_across);
             }
             bodies.groups[range].fill(2 * index);
             for dof in turning(building) {
                 bodies.groups[dof] = 2 * index + 1;
             }
-            bodies.stiffness.take(&own.stiffness, offset, 1.0);
-            bodies.stiffness.take(&own.undamped, offset, 1.0);
-            bodies.damping.take(&own.stiffness, offset, own.beta);
-            bodies.damping.take(&own.dashpots, offset, 1.0);
-            for spring in &own.springs {
+            bodies.stiffness.take(&equations.stiffness, offset, 1.0);
+            bodies.stiffness.take(&equations.undamped, offset, 1.0);
+            bodies
+                .damping
+                .take(&equations.stiffness, offset, equations.beta);
+            bodies.damping.take(&equations.dashpots, offset, 1.0);
+            for spring in &equations.springs {
                 let row: Row = spring.row.moved_up(offset).entries().to_vec();
                 let law = match spring.hysteresis.rule() {
                     HysteresisRule::Sliding { slow, rate } => SpringLaw::Slider(Slider {
@@ -200,7 +202,7 @@ impl Bodies {
                     row,
                     law,
                     delay: if spring.damped_by_tangent {
-                        own.beta
+                        equations.beta
                     } else {
                         0.0
                     },
@@ -287,7 +289,7 @@ fn turning(building: &jostle::system::BuildingSystem) -> Vec<usize> {
         .filter(|track| track.direction == jostle::system::Direction::Turning)
         .map(|track| track.dof)
         .collect();
-    dofs.extend(building.foundation.map(|own| own.turning));
+    dofs.extend(building.foundation.map(|foundation| foundation.turning));
     dofs
 }
 
@@ -303,10 +305,13 @@ pub(super) fn closing(ports: &jostle::interface::PortPair) -> Row {
 
 /// The steps of the records of a motion \[s\].
 pub(super) fn record_steps(motion: &GroundMotion) -> Vec<f64> {
-    let across = motion.bearing.as_ref().and_then(|own| own.across.as_ref());
+    let across = motion
+        .bearing
+        .as_ref()
+        .and_then(|bearing| bearing.across.as_ref());
     let waves = [Some(motion), across].into_iter().flatten();
     waves
-        .filter_map(|own| match own.wave {
+        .filter_map(|wave| match wave.wave {
             jostle::Wave::Sampled { step, .. } => Some(step),
             _ => None,
         })

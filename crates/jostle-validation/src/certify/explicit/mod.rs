@@ -301,16 +301,16 @@ impl<'a> Run<'a> {
             self.after.u.clone_from(&self.state.u);
             self.after.v.clone_from(&self.state.v);
             self.after.z.clone_from(&self.state.z);
-            for (own, weight) in done.iter().zip(WEIGHTS[stage]) {
+            for (earlier_stage, weight) in done.iter().zip(WEIGHTS[stage]) {
                 if weight == 0.0 {
                     continue;
                 }
                 let by = h * weight;
                 for k in 0..n {
-                    self.after.u[k] += by * own.velocity[k];
-                    self.after.v[k] += by * own.acceleration[k];
+                    self.after.u[k] += by * earlier_stage.velocity[k];
+                    self.after.v[k] += by * earlier_stage.acceleration[k];
                 }
-                for (z, rate) in self.after.z.iter_mut().zip(&own.rates) {
+                for (z, rate) in self.after.z.iter_mut().zip(&earlier_stage.rates) {
                     *z += by * rate;
                 }
             }
@@ -321,10 +321,12 @@ impl<'a> Run<'a> {
                 &self.phases,
                 &mut self.after_forces,
             );
-            let own = &mut rest[0];
-            own.velocity.clone_from(&self.after.v);
-            own.acceleration.clone_from(&self.after_forces.acceleration);
-            own.rates.clone_from(&self.after_forces.rates);
+            let current_stage = &mut rest[0];
+            current_stage.velocity.clone_from(&self.after.v);
+            current_stage
+                .acceleration
+                .clone_from(&self.after_forces.acceleration);
+            current_stage.rates.clone_from(&self.after_forces.rates);
         }
         let mut worst: f64 = 0.0;
         let sum = |of: &dyn Fn(&Stage) -> f64| -> f64 {

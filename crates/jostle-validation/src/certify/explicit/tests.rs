@@ -34,22 +34,22 @@ fn elastic_models_move_as_the_reference_by_modes_says() {
             continue;
         }
         // Frames with massless joints and the momentum law are not part of it.
-        let Ok(own) = run(&system, &motion, Fineness::FINE) else {
+        let Ok(run) = run(&system, &motion, Fineness::FINE) else {
             continue;
         };
         let other = by_modes(&system, &motion, Accuracy::FINE).expect("a reference");
         let wider = by_modes(&system, &motion, Accuracy::OTHER).expect("a reference");
         let all = quantities_of(&system, &other).into_iter();
         let all = all.zip(quantities_of(&system, &wider));
-        for ((quantity, wider), own) in all.zip(quantities_of(&system, &own)) {
+        for ((quantity, wider), got) in all.zip(quantities_of(&system, &run)) {
             let scale = quantity.scale.max(1e-9);
             // What a gap wider by 1e-6 moves is not certain to more digits.
             let moved = (wider.value - quantity.value).abs() / scale;
-            let error = (own.value - quantity.value).abs() / scale;
+            let error = (got.value - quantity.value).abs() / scale;
             assert!(
                 error <= 2e-6 + moved,
                 "model {number}: {quantity:?} is {} here, off by {error:e}",
-                own.value
+                got.value
             );
             compared += 1;
         }
@@ -80,13 +80,13 @@ fn a_plastic_mass_under_a_sine_slides_as_far_as_the_closed_form_says() {
     );
     let got = peaks(&text).buildings[0].least[0];
     // Elastic until it yields, then free under the ground and the yield force, to the instant of rest.
-    let (own, big) = (
+    let (frequency, big) = (
         (stiffness / mass).sqrt(),
         2.0 * std::f64::consts::PI / period,
     );
-    let factor = amplitude / (own * own - big * big);
-    let elastic = |t: f64| -factor * ((big * t).sin() - big / own * (own * t).sin());
-    let elastic_rate = |t: f64| -factor * big * ((big * t).cos() - (own * t).cos());
+    let factor = amplitude / (frequency * frequency - big * big);
+    let elastic = |t: f64| -factor * ((big * t).sin() - big / frequency * (frequency * t).sin());
+    let elastic_rate = |t: f64| -factor * big * ((big * t).cos() - (frequency * t).cos());
     let root = |mut low: f64, mut high: f64, of: &dyn Fn(f64) -> f64| {
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
@@ -171,9 +171,9 @@ fn a_mass_on_a_dashpot_in_series_decays_as_two_roots_say() {
             unknown: 0,
         },
     });
-    let mut own = Run::new(&system, &motion, &bodies, Fineness::FINE);
-    own.state.v[0] = 1.0;
-    own.go().expect("a run");
+    let mut run = Run::new(&system, &motion, &bodies, Fineness::FINE);
+    run.state.v[0] = 1.0;
+    run.go().expect("a run");
     // λ² + (k/c) λ + k/m = 0.
     let (half, omega) = (0.5 * k / c, (k / mass - 0.25 * k * k / c / c).abs().sqrt());
     assert!(k / mass < 0.25 * k * k / c / c, "two real roots");
@@ -181,5 +181,5 @@ fn a_mass_on_a_dashpot_in_series_decays_as_two_roots_say() {
     let (a, b) = (-half + omega, -half - omega);
     // ẋ(0) = 1, ẍ(0) = 0.
     let rate = (a * (b * t).exp() - b * (a * t).exp()) / (a - b);
-    near(own.state.v[0], rate, 1e-7, "rate");
+    near(run.state.v[0], rate, 1e-7, "rate");
 }

@@ -101,12 +101,12 @@ impl Watch {
             forces.push(add(Signal::Contacts(points.clone())));
             let widths = points.iter().map(|point| system.contacts[*point].width);
             let narrowest = widths.fold(f64::INFINITY, f64::min);
-            let own = points.iter().map(|point| {
+            let adds = points.iter().map(|point| {
                 let contact = &system.contacts[*point];
                 let further = contact.width - narrowest;
                 add(Signal::Closing(closing(&contact.ports), further))
             });
-            closings.push(own.collect());
+            closings.push(adds.collect());
         }
         let count = signals.len();
         // Closings may stay negative.
@@ -211,7 +211,7 @@ impl Watch {
             }
         }
         for (impulse, place) in self.impulses.iter_mut().zip(&self.forces) {
-            let y = self.buffer.each_ref().map(|own| own[*place]);
+            let y = self.buffer.each_ref().map(|buffer| buffer[*place]);
             *impulse += h * (7.0 * (y[0] + y[4]) + 32.0 * (y[1] + y[3]) + 12.0 * y[2]) / 90.0;
         }
     }
@@ -235,8 +235,8 @@ impl Watch {
                 more: place
                     .more
                     .iter()
-                    .map(|(kind, floor, own, count)| {
-                        let most = own.iter().map(|k| match count {
+                    .map(|(kind, floor, signals, count)| {
+                        let most = signals.iter().map(|k| match count {
                             Count::Most => self.most[*k],
                             Count::Least => self.least[*k],
                             Count::Either => either(*k),
@@ -258,8 +258,8 @@ impl Watch {
                     .collect(),
             }
         });
-        let closing = self.closings.iter().map(|own| {
-            let most = own.iter().map(|k| self.most[*k]);
+        let closing = self.closings.iter().map(|closing| {
+            let most = closing.iter().map(|k| self.most[*k]);
             most.fold(f64::NEG_INFINITY, f64::max)
         });
         Peaks {
@@ -304,7 +304,7 @@ fn place(building: &BuildingSystem, signals: &mut Vec<Signal>) -> Place {
         .collect();
     let sway = building
         .foundation
-        .and_then(|own| Some([own.sway?, own.turning]));
+        .and_then(|foundation| Some([foundation.sway?, foundation.turning]));
     let mut below: Row = building.foot.map(|dof| (dof, -1.0)).into_iter().collect();
     if let Some([dof, _]) = sway {
         below = vec![(dof, -1.0)];
@@ -346,7 +346,7 @@ fn place(building: &BuildingSystem, signals: &mut Vec<Signal>) -> Place {
     }
     let not_soil = forces
         .iter()
-        .filter(|(dof, _)| sway.is_none_or(|own| own[0] != *dof));
+        .filter(|(dof, _)| sway.is_none_or(|sway| sway[0] != *dof));
     place.base = add(Signal::Restoring(
         not_soil.map(|(dof, _)| (*dof, 1.0)).collect(),
     ));
@@ -382,9 +382,9 @@ fn place(building: &BuildingSystem, signals: &mut Vec<Signal>) -> Place {
 fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usize) -> Place {
     let (n, offset) = (building.floors.len(), building.offset);
     let dof = |direction: Direction, floor: usize| {
-        let mut own = building.tracks.iter();
-        let own = own.by_ref().filter(|track| track.direction == direction);
-        own.map(|track| track.dof).nth(floor).unwrap_or(0)
+        let mut tracks = building.tracks.iter();
+        let tracks = tracks.by_ref().filter(|track| track.direction == direction);
+        tracks.map(|track| track.dof).nth(floor).unwrap_or(0)
     };
     let centres = &building.discretization.centres;
     let axis = centres[0];
@@ -394,7 +394,7 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
     };
     // Motion of a vertical line of a storey, at a place from the centre of mass above.
     let line = |storey: usize, at: [f64; 2]| -> [Row; 2] {
-        let own = &building.plan_storeys[storey];
+        let plan_storey = &building.plan_storeys[storey];
         // What a footing keeps from moving has no displacement.
         let place = |dofs: [Option<usize>; 3], arm: [f64; 2], sign: f64| {
             let [x, y, turned] = dofs.map(|dof| dof.map(|dof| dof + offset));
@@ -407,9 +407,9 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
                 shares.filter_map(|(dof, share)| Some((dof?, share)))
             })
         };
-        let above = place(own.above.map(Some), at, 1.0);
-        let below = own.below.map(|dofs| {
-            let arm = [own.offset[0] + at[0], own.offset[1] + at[1]];
+        let above = place(plan_storey.above.map(Some), at, 1.0);
+        let below = plan_storey.below.map(|dofs| {
+            let arm = [plan_storey.offset[0] + at[0], plan_storey.offset[1] + at[1]];
             place(dofs, arm, -1.0)
         });
         [0, 1].map(|axis| {
@@ -451,7 +451,10 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
         place.moment.push(add(Signal::Restoring(moment)));
         let moved_across = add(one(y));
         let rotation = add(one(turned));
-        let corners = building.corners.iter().filter(|own| own.floor == floor);
+        let corners = building
+            .corners
+            .iter()
+            .filter(|corner| corner.floor == floor);
         let corners: Vec<usize> = corners
             .map(|corner| add(Signal::Square(corner.rows.each_ref().map(moved))))
             .collect();
@@ -464,14 +467,14 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
             .collect();
         let shear = add(Signal::Restoring(sum(Direction::Across, floor, &|_| 1.0)));
         let mut torque = sum(Direction::Turning, floor, &|_| 1.0);
-        torque.extend(sum(Direction::Across, floor, &|own| {
-            centres[own][0] - axis[0]
+        torque.extend(sum(Direction::Across, floor, &|level| {
+            centres[level][0] - axis[0]
         }));
-        torque.extend(sum(Direction::Along, floor, &|own| {
-            axis[1] - centres[own][1]
+        torque.extend(sum(Direction::Along, floor, &|level| {
+            axis[1] - centres[level][1]
         }));
         let torque = add(Signal::Restoring(torque));
-        let own = [
+        let entries = [
             (vec![moved_across], Count::Most),
             (vec![moved_across], Count::Least),
             (vec![rotation], Count::Most),
@@ -483,8 +486,8 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
             (vec![shear], Count::Either),
             (vec![torque], Count::Either),
         ];
-        for (list, own) in more.iter_mut().zip(own) {
-            list.push(own);
+        for (list, entry) in more.iter_mut().zip(entries) {
+            list.push(entry);
         }
         base = building.floors[floor].height;
     }

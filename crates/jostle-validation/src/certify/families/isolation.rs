@@ -14,40 +14,40 @@ pub(super) fn draw(random: &mut Random) -> Value {
     let whole = above + mat;
     let period = random.scaled(1.2, 3.5);
     let slow = whole * (2.0 * std::f64::consts::PI / period).powi(2);
-    let mut own = Map::new();
-    own.insert("mat_mass".into(), json!(mat));
+    let mut isolation = Map::new();
+    isolation.insert("mat_mass".into(), json!(mat));
     match random.below(4) {
         0 => {
-            own.insert("kind".into(), json!("linear"));
-            own.insert("stiffness".into(), json!(digits(slow)));
-            own.insert("damping_ratio".into(), json!(random.scaled(0.02, 0.3)));
+            isolation.insert("kind".into(), json!("linear"));
+            isolation.insert("stiffness".into(), json!(digits(slow)));
+            isolation.insert("damping_ratio".into(), json!(random.scaled(0.02, 0.3)));
         }
         1 => {
             let post = random.scaled(0.05, 0.2);
-            own.insert("kind".into(), json!("lead-rubber"));
-            own.insert("stiffness".into(), json!(digits(slow / post)));
-            own.insert("post_yield".into(), json!(post));
+            isolation.insert("kind".into(), json!("lead-rubber"));
+            isolation.insert("stiffness".into(), json!(digits(slow / post)));
+            isolation.insert("post_yield".into(), json!(post));
             let yields = 9.81 * whole * random.scaled(0.02, 0.12);
-            own.insert("yield".into(), json!(digits(yields)));
+            isolation.insert("yield".into(), json!(digits(yields)));
         }
         rising => {
-            own.insert("kind".into(), json!("friction-pendulum"));
-            own.insert("radius".into(), json!(random.scaled(0.5, 3.0)));
+            isolation.insert("kind".into(), json!("friction-pendulum"));
+            isolation.insert("radius".into(), json!(random.scaled(0.5, 3.0)));
             let fast = random.scaled(0.02, 0.12);
             let friction = if rising == 3 {
                 json!({"slow": digits(fast * random.between(0.3, 0.8)), "fast": fast, "rate": random.scaled(15.0, 100.0)})
             } else {
                 json!(fast)
             };
-            own.insert("friction".into(), friction);
-            own.insert(
+            isolation.insert("friction".into(), friction);
+            isolation.insert(
                 "slip_displacement".into(),
                 json!(random.scaled(0.0005, 0.003)),
             );
         }
     }
-    if own["kind"] != json!("linear") && random.chance(0.3) {
-        own.insert("damping".into(), json!(digits(0.1 * (slow * whole).sqrt())));
+    if isolation["kind"] != json!("linear") && random.chance(0.3) {
+        isolation.insert("damping".into(), json!(digits(0.1 * (slow * whole).sqrt())));
     }
     if random.chance(0.35) {
         let stop = json!({"at": random.scaled(0.02, 0.15), "stiffness": digits(slow * random.scaled(2.0, 30.0))});
@@ -57,10 +57,10 @@ pub(super) fn draw(random: &mut Random) -> Value {
             1 => json!({"right": stop}),
             _ => stop,
         };
-        own.insert("stop".into(), stops);
+        isolation.insert("stop".into(), stops);
     }
     tree.insert("damping".into(), damping(random, storeys(&tree)));
-    tree.insert("isolation".into(), Value::Object(own));
+    tree.insert("isolation".into(), Value::Object(isolation));
     let mut buildings = vec![Value::Object(tree)];
     if random.chance(0.6) {
         let (mut other, _) = shear(random, "B2", height, 6);

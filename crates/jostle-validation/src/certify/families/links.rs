@@ -67,7 +67,7 @@ fn link(random: &mut Random, weight: f64, stiffness: f64) -> Map<String, Value> 
     let law = LAWS[random.below(LAWS.len())];
     let mut tree = Map::new();
     tree.insert("law".into(), json!(law));
-    let own = digits(stiffness * random.scaled(0.02, 1.0));
+    let link_stiffness = digits(stiffness * random.scaled(0.02, 1.0));
     // At 0.2 m/s a tenth of the weight.
     let dashpot = |random: &mut Random, exponent: f64| {
         digits(weight * random.scaled(0.02, 0.3) / 0.2_f64.powf(exponent))
@@ -84,7 +84,7 @@ fn link(random: &mut Random, weight: f64, stiffness: f64) -> Map<String, Value> 
         }
         "maxwell" => {
             tree.insert("damping".into(), json!(dashpot(random, 1.0)));
-            tree.insert("stiffness".into(), json!(own));
+            tree.insert("stiffness".into(), json!(link_stiffness));
         }
         "friction" => {
             let slips = digits(weight * random.scaled(0.01, 0.2));
@@ -101,14 +101,14 @@ fn link(random: &mut Random, weight: f64, stiffness: f64) -> Map<String, Value> 
             }
             hinge.insert("yield".into(), json!(digits(yields)));
             tree.insert("hinge".into(), Value::Object(hinge));
-            tree.insert("stiffness".into(), json!(own));
+            tree.insert("stiffness".into(), json!(link_stiffness));
         }
         "cable" => {
-            tree.insert("stiffness".into(), json!(own));
+            tree.insert("stiffness".into(), json!(link_stiffness));
             tree.insert("slack".into(), json!(random.scaled(0.0005, 0.02)));
         }
         _ => {
-            tree.insert("stiffness".into(), json!(own));
+            tree.insert("stiffness".into(), json!(link_stiffness));
             tree.insert("gap".into(), json!(random.scaled(0.0005, 0.02)));
             if random.chance(0.6) {
                 tree.insert("damping".into(), json!(dashpot(random, 1.0)));

@@ -55,11 +55,11 @@ impl Family {
     /// Its model of a number of a seed.
     #[must_use]
     pub fn model(&self, seed: u64, number: u64) -> Drawn {
-        let own = self.name.bytes().fold(0_u64, |sum, byte| {
+        let fold = self.name.bytes().fold(0_u64, |sum, byte| {
             sum.wrapping_mul(0x0100_0000_01b3)
                 .wrapping_add(u64::from(byte))
         });
-        let mut random = Random::new(seed ^ own, number);
+        let mut random = Random::new(seed ^ fold, number);
         let mut tree = (self.draw)(&mut random);
         tree["title"] = json!(format!("{} {number} of seed {seed}", self.name));
         // Runs go on where storeys drift by more than a tenth.

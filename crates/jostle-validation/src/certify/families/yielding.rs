@@ -12,18 +12,18 @@ pub(super) fn draw(random: &mut Random) -> Value {
     for k in 1..=count {
         let (mut tree, period) = shear(random, &format!("B{k}"), height, 8);
         first.get_or_insert(period);
-        let mut own = damping(random, storeys(&tree));
+        let mut damping = damping(random, storeys(&tree));
         // One of a row may stay elastic.
         if k == 1 || random.chance(0.75) {
             tree.insert("hinges".into(), hinges(random, height));
             if random.chance(0.3) {
-                own["yielding"] = json!(["none", "tangent"][random.below(2)]);
+                damping["yielding"] = json!(["none", "tangent"][random.below(2)]);
             }
         }
         if random.chance(0.2) {
             tree.insert("p_delta".into(), json!(true));
         }
-        tree.insert("damping".into(), own);
+        tree.insert("damping".into(), damping);
         buildings.push(Value::Object(tree));
     }
     let wall = count == 1 && random.chance(0.4);

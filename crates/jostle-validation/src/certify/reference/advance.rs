@@ -56,7 +56,7 @@ impl Run<'_> {
     /// The modes of a component at a share of the step.
     pub(super) fn at(&self, component: usize, s: f64, pushes: &Pushes, out: &mut Vec<C64>) {
         let inputs = self.inputs(component, pushes);
-        let own = &self.components[component];
+        let run_component = &self.components[component];
         let last = if inputs.is_empty() {
             self.ground_degree
         } else {
@@ -64,15 +64,19 @@ impl Run<'_> {
         };
         let (mut work, mut moment) = ([ZERO; DEGREE + 2], [ZERO; NODES]);
         out.clear();
-        for j in 0..own.lambda.len() {
-            phi(own.lambda[j] * (s * pushes.step), last + 1, &mut work);
+        for j in 0..run_component.lambda.len() {
+            phi(
+                run_component.lambda[j] * (s * pushes.step),
+                last + 1,
+                &mut work,
+            );
             moments(&work, s, pushes.step, last, &mut moment);
             out.push(advance(
                 self.q[component][j],
                 work[0],
                 &moment,
                 j,
-                own,
+                run_component,
                 &inputs,
                 pushes,
                 last,
@@ -105,19 +109,19 @@ impl Run<'_> {
             if s == 1.0 {
                 let (exp, moment) = self.tables(level, component);
                 let inputs = self.inputs(component, pushes);
-                let own = &self.components[component];
+                let run_component = &self.components[component];
                 let last = if inputs.is_empty() {
                     self.ground_degree
                 } else {
                     DEGREE
                 };
-                for j in 0..own.lambda.len() {
+                for j in 0..run_component.lambda.len() {
                     out.push(advance(
                         self.q[component][j],
                         exp[j][DEGREE],
                         &moment[j][DEGREE],
                         j,
-                        own,
+                        run_component,
                         &inputs,
                         pushes,
                         last,

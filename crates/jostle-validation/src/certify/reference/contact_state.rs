@@ -87,8 +87,8 @@ impl ContactState {
                         .collect();
                     let mut push = vec![ZERO; component.lambda.len()];
                     for (dof, sign) in &list {
-                        for (sum, own) in push.iter_mut().zip(component.push(*dof)) {
-                            *sum += own * *sign;
+                        for (sum, push) in push.iter_mut().zip(component.push(*dof)) {
+                            *sum += push * *sign;
                         }
                     }
                     let [accelerates, jerks, pulls] = watch[index].struck(&push);

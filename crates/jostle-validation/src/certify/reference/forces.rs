@@ -25,9 +25,9 @@ impl Run<'_> {
             for side in 0..self.contact_states[contact].sides.len() {
                 let component = self.contact_states[contact].sides[side].component;
                 let (exp, _) = self.tables(level, component);
-                let own = &self.contact_states[contact].sides[side];
+                let side = &self.contact_states[contact].sides[side];
                 for (j, q) in self.q[component].iter().enumerate() {
-                    let (u, v) = (own.row[j] * q, own.rate[j] * q);
+                    let (u, v) = (side.row[j] * q, side.rate[j] * q);
                     for i in 1..NODES {
                         let e = exp[j][i];
                         courses[0][i] += u.re * e.re - u.im * e.im;

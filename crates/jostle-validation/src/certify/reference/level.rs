@@ -85,9 +85,9 @@ impl Run<'_> {
         for side in 0..self.contact_states[contact].sides.len() {
             let component = self.contact_states[contact].sides[side].component;
             let (_, moment) = self.tables(level, component);
-            let own = &self.contact_states[contact].sides[side];
+            let side = &self.contact_states[contact].sides[side];
             let input = &self.components[component].ground;
-            add_response(&mut response, own, input, &moment);
+            add_response(&mut response, side, input, &moment);
         }
         let response = Rc::new(response);
         self.levels[level].ground[contact] = Some(response.clone());
@@ -114,11 +114,11 @@ impl Run<'_> {
                 }
                 any = true;
                 let (_, moment) = self.tables(level, component);
-                let (own, push) = (
+                let (contact_side, push) = (
                     &self.contact_states[contact].sides[side],
                     &self.contact_states[other].sides[with].push,
                 );
-                add_response(&mut response, own, push, &moment);
+                add_response(&mut response, contact_side, push, &moment);
             }
         }
         if !any {

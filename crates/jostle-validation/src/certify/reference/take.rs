@@ -148,8 +148,8 @@ impl Run<'_> {
                 for (part, value) in tops.into_iter().flatten() {
                     if value > (1.0 - 1e-3) * peak {
                         let share = span[0] + part * (span[1] - span[0]);
-                        let own = self.exact(component, share, pushes);
-                        self.take(component, &own);
+                        let exact = self.exact(component, share, pushes);
+                        self.take(component, &exact);
                     }
                 }
             }
@@ -176,12 +176,12 @@ impl Run<'_> {
     fn with_pushes(
         &self,
         component: usize,
-        mut own: Vec<(f64, f64)>,
+        mut signals: Vec<(f64, f64)>,
         s: f64,
         pushes: &Pushes,
     ) -> Vec<(f64, f64)> {
         let watch = &self.watch[component];
-        watch.add_ground(&mut own, horner(&pushes.ground, s));
+        watch.add_ground(&mut signals, horner(&pushes.ground, s));
         for (contact, poly) in &pushes.forces {
             let (force, rise) = (horner(poly, s), slope(poly, s) / pushes.step);
             for side in self.contact_states[*contact]
@@ -190,16 +190,16 @@ impl Run<'_> {
                 .filter(|side| side.component == component)
             {
                 for floor in 0..watch.floors {
-                    let signal = &mut own[watch.acceleration(floor)];
+                    let signal = &mut signals[watch.acceleration(floor)];
                     signal.0 += side.accelerates[floor] * force;
                     signal.1 += side.jerks[floor] * force + side.accelerates[floor] * rise;
                 }
                 for (link, pull) in side.pulls.iter().enumerate() {
-                    own[watch.link(link)].1 += pull * force;
+                    signals[watch.link(link)].1 += pull * force;
                 }
             }
         }
-        own
+        signals
     }
 
     /// Takes values into the peaks.

@@ -92,10 +92,10 @@ impl Watch {
             watch.add_building(system, component, index);
         }
         for (link, element) in system.links.iter().enumerate() {
-            let own = |building: &Option<usize>| {
+            let in_component = |building: &Option<usize>| {
                 building.is_some_and(|building| component.buildings.contains(&building))
             };
-            if !element.ports.buildings().iter().any(own) {
+            if !element.ports.buildings().iter().any(in_component) {
                 continue;
             }
             // A face pushed right by a compressed link shortens it by moving left.
@@ -191,8 +191,8 @@ impl Watch {
     }
 
     pub(super) fn shear(&self, building: usize) -> usize {
-        let own = self.buildings.iter().position(|b| b.building == building);
-        2 * self.floors + own.unwrap_or(0)
+        let position = self.buildings.iter().position(|b| b.building == building);
+        2 * self.floors + position.unwrap_or(0)
     }
 
     pub(super) fn drift(&self, floor: usize) -> usize {

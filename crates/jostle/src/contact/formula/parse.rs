@@ -122,7 +122,7 @@ pub(super) fn parse(text: &str) -> Result<Formula, FormulaError> {
                         if count != due {
                             let name = Operation::FUNCTIONS
                                 .iter()
-                                .find(|(own, _)| *own == function);
+                                .find(|(candidate, _)| *candidate == function);
                             let name = name.map_or("", |(_, name)| name);
                             return wrong(format!(
                                 "{name} takes {due} value{}, found {count}",
@@ -222,8 +222,8 @@ fn next(text: &str) -> Result<Option<(Token<'_>, &str)>, FormulaError> {
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| {
-        let own = bytes[from..].iter().take_while(|b| b.is_ascii_digit());
-        from + own.count()
+        let bytes = bytes[from..].iter().take_while(|b| b.is_ascii_digit());
+        from + bytes.count()
     };
     let mut end = digits(0);
     if bytes.get(end) == Some(&b'.') {
@@ -253,7 +253,7 @@ impl Writer {
         let known = self
             .constants
             .iter()
-            .position(|own| own.to_bits() == number.to_bits());
+            .position(|constant| constant.to_bits() == number.to_bits());
         let index = known.unwrap_or(self.constants.len());
         if index == MOST_CONSTANTS {
             return wrong(format!(

@@ -55,7 +55,7 @@ impl Dual {
     /// A function of this value with its slope there.
     fn through(self, value: f64, slope: f64) -> Self {
         // A value that does not change has no derivative, however steep the function is there.
-        let chain = |own: f64| if own == 0.0 { 0.0 } else { slope * own };
+        let chain = |value: f64| if value == 0.0 { 0.0 } else { slope * value };
         Self::new(value, chain(self.by_indentation), chain(self.by_rate))
     }
 
@@ -218,21 +218,24 @@ pub(super) fn written(formula: &Formula) -> String {
                 (format!("{}", formula.constants[usize::from(*index)]), VALUE)
             }
             Step::Name(name) => {
-                let known = Name::ALL.iter().find(|(own, _)| own == name);
+                let known = Name::ALL.iter().find(|(candidate, _)| candidate == name);
                 (known.map_or("", |(_, text)| text).to_owned(), VALUE)
             }
             Step::Apply(operation) => {
                 let first = waiting.len().saturating_sub(operation.takes());
                 let of = waiting.split_off(first);
                 let rank = operation.rank();
-                let bracketed = |(text, own): &(String, u8), least: u8| match *own < least {
-                    true => format!("({text})"),
-                    false => text.clone(),
-                };
-                let sign = Operation::SIGNS.iter().find(|(own, _)| own == operation);
+                let bracketed =
+                    |(text, text_rank): &(String, u8), least: u8| match *text_rank < least {
+                        true => format!("({text})"),
+                        false => text.clone(),
+                    };
+                let sign = Operation::SIGNS
+                    .iter()
+                    .find(|(candidate, _)| candidate == operation);
                 let function = Operation::FUNCTIONS
                     .iter()
-                    .find(|(own, _)| own == operation);
+                    .find(|(candidate, _)| candidate == operation);
                 let text = match (sign, function) {
                     (Some((_, sign)), _) => {
                         // Only what is written after - or / needs brackets at the same rank; powers are read from the right.

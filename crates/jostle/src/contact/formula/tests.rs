@@ -52,10 +52,10 @@ const WRITTEN: [(LawKind, &str, f64); 6] = [
 #[test]
 fn laws_written_as_formulas_respond_like_the_laws() {
     for (kind, text, stiffness) in WRITTEN {
-        let (own, written) = (between(kind, stiffness), between(formula(text), stiffness));
+        let (built_in, written) = (between(kind, stiffness), between(formula(text), stiffness));
         for indentation in [-1e-3, 1e-6, 2e-4, 5e-3] {
             for rate in [-0.4, -0.01, 0.0, 0.2, 0.4] {
-                let [a, b] = [&own, &written].map(|law| law.respond(indentation, rate, 0.4));
+                let [a, b] = [&built_in, &written].map(|law| law.respond(indentation, rate, 0.4));
                 for (found, due, what) in [
                     (b.force, a.force, "force"),
                     (b.by_indentation, a.by_indentation, "slope over indentation"),
@@ -74,7 +74,7 @@ fn laws_written_as_formulas_respond_like_the_laws() {
             }
         }
         assert!(
-            (written.onset(0.3) - own.onset(0.3)).abs() <= 1e-12 * own.onset(0.3),
+            (written.onset(0.3) - built_in.onset(0.3)).abs() <= 1e-12 * built_in.onset(0.3),
             "{text}"
         );
         assert_eq!(formula(text).is_hertzian(), kind.is_hertzian(), "{text}");
@@ -83,14 +83,17 @@ fn laws_written_as_formulas_respond_like_the_laws() {
             kind.uses_restitution(),
             "{text}"
         );
-        let exact = own.elastic_duration(3e4, 0.4);
+        let exact = built_in.elastic_duration(3e4, 0.4);
         let scale = written.elastic_duration(3e4, 0.4);
         // A dashpot without the indentation does not change the scale.
         assert!(
             (scale / exact - 1.0).abs() < 0.06,
             "{text}: {scale} s instead of {exact} s"
         );
-        let (scale, exact) = (written.elastic_force(3e4, 0.4), own.elastic_force(3e4, 0.4));
+        let (scale, exact) = (
+            written.elastic_force(3e4, 0.4),
+            built_in.elastic_force(3e4, 0.4),
+        );
         assert!(
             (scale / exact - 1.0).abs() < 0.2,
             "{text}: {scale} N instead of {exact} N"

@@ -90,7 +90,7 @@ impl BuildingSummary {
     /// Greatest drift ratio of any storey anywhere: along the row, and at the corners of a plan \[–\].
     #[must_use]
     pub fn greatest_drift(&self) -> f64 {
-        let corner = self.in_plan.map_or(0.0, |own| own.drift_corner_peak);
+        let corner = self.in_plan.map_or(0.0, |plan| plan.drift_corner_peak);
         self.response.drift_peak.max(corner)
     }
 }
@@ -133,7 +133,9 @@ impl FloorSummary {
     /// Greatest drift ratio of the storey below anywhere: along the row, and at the corners of a plan \[–\].
     #[must_use]
     pub fn greatest_drift(&self) -> f64 {
-        let corner = self.in_plan.map_or(0.0, |own| own.storey_drift_corner_peak);
+        let corner = self
+            .in_plan
+            .map_or(0.0, |plan| plan.storey_drift_corner_peak);
         self.response.storey_drift_peak.max(corner)
     }
 
@@ -143,13 +145,14 @@ impl FloorSummary {
     #[must_use]
     pub fn displacement_peak_m(&self, [x, across]: [f64; 2]) -> f64 {
         let along = self.without_contact.as_ref().unwrap_or(&self.response);
-        let own = self
+        let without_contact = self
             .without_contact_in_plan
             .as_ref()
             .or(self.in_plan.as_ref());
-        let sideways = own.map_or(0.0, |own| {
-            own.displacement_across_max_m
-                .max(-own.displacement_across_min_m)
+        let sideways = without_contact.map_or(0.0, |without_contact| {
+            without_contact
+                .displacement_across_max_m
+                .max(-without_contact.displacement_across_min_m)
         });
         x.abs() * along.displacement_peak_m() + across.abs() * sideways
     }

@@ -166,7 +166,7 @@ impl IsolationSummary {
     #[must_use]
     pub fn displacement_peak_m(&self) -> f64 {
         match self.in_plan {
-            Some(own) => own.stroke_peak_m,
+            Some(plan) => plan.stroke_peak_m,
             None => self.displacement_max_m.max(-self.displacement_min_m),
         }
     }
@@ -175,7 +175,7 @@ impl IsolationSummary {
     #[must_use]
     pub fn residual_stroke_m(&self) -> f64 {
         match self.in_plan {
-            Some(own) => own.residual_stroke_m,
+            Some(plan) => plan.residual_stroke_m,
             None => self.residual_m.abs(),
         }
     }

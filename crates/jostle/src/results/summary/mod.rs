@@ -141,7 +141,7 @@ impl Summary {
 
     /// What the checks found.
     pub const CHECKS: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("result_checks", "checks of the results, B1 to B12, that gave a note or a warning", |s| s.checks.iter().filter(|own| own.id.starts_with('B') && own.grade >= Grade::Note).count()).not_in_summary().in_study(),
+        Quantity::<Self>::whole("result_checks", "checks of the results, B1 to B12, that gave a note or a warning", |s| s.checks.iter().filter(|check| check.id.starts_with('B') && check.grade >= Grade::Note).count()).not_in_summary().in_study(),
     ];
 }
 

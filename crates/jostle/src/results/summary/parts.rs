@@ -79,14 +79,14 @@ impl BuildingSummary {
     #[must_use]
     pub fn damaged_panels(&self) -> Vec<PanelDamageSummary> {
         let mut panels: Vec<PanelDamageSummary> = Vec::new();
-        for own in &self.parts {
-            let Some((drift, state)) = own.drift.zip(own.damage_state) else {
+        for part in &self.parts {
+            let Some((drift, state)) = part.drift.zip(part.damage_state) else {
                 continue;
             };
             let panel = [".foot", ".head"]
                 .iter()
-                .find_map(|end| own.name.strip_suffix(end));
-            let panel = panel.unwrap_or(&own.name);
+                .find_map(|end| part.name.strip_suffix(end));
+            let panel = panel.unwrap_or(&part.name);
             let name = [".up", ".down"]
                 .iter()
                 .find_map(|way| panel.strip_suffix(way));
@@ -123,7 +123,7 @@ impl PartSummary {
         Quantity::<Self>::optional("buckled_s", Unit::S, "when a brace first buckled; absent if it does not", |p| p.buckled_s),
         Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "of a panel: greatest inertia force across its plane, by the accelerations of the floors below and above, over what it bears", |p| p.out_of_plane_ratio),
         Quantity::<Self>::optional("drift", Unit::NONE, "of a strut of a panel: greatest drift of its bay that shortens it, the shortening of the diagonal over the cosine of its slope and the storey height", |p| p.drift),
-        Quantity::<Self>::optional("damage_state", Unit::NONE, "of a panel: damage state by that drift, 0 to 4", |p| p.damage_state.map(|own| own as f64)),
+        Quantity::<Self>::optional("damage_state", Unit::NONE, "of a panel: damage state by that drift, 0 to 4", |p| p.damage_state.map(|damage_state| damage_state as f64)),
         Quantity::<Self>::optional("lifted_share", Unit::NONE, "of a footing: share of the run in which a contact spring bears nothing, the greatest of all", |p| p.lifted_share),
         Quantity::<Self>::optional("pressure_max_pa", Unit::PA, "of a foundation: greatest force of a contact spring over the area of its strip", |p| p.pressure_max_pa),
         Quantity::<Self>::optional("settlement_m", Unit::M, "of a footing: settlement of the ground at the end of the run, the greatest of all contact springs", |p| p.settlement_m),

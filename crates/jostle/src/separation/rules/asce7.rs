@@ -20,8 +20,9 @@ impl Table<'_> {
             );
         }
         let setbacks = [0, 1].map(|side| {
-            let own = self.neighbours.places.iter();
-            own.map(|place| [l, r][side] * place.peaks[side].abs())
+            let places = self.neighbours.places.iter();
+            places
+                .map(|place| [l, r][side] * place.peaks[side].abs())
                 .fold(0.0, f64::max)
         });
         self.add(

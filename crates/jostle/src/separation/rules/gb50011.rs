@@ -19,7 +19,7 @@ impl Table<'_> {
                 "system = frame (default: of concrete)".to_owned(),
             ),
         };
-        let wanted = |own: &u32| self.inputs.intensity.is_none_or(|only| only == *own);
+        let wanted = |intensity: &u32| self.inputs.intensity.is_none_or(|only| only == *intensity);
         let intensities: Vec<u32> = (6..=9).filter(wanted).collect();
         for intensity in intensities {
             let width = gb50011_joint(height, intensity, system).filter(|width| width.is_finite());

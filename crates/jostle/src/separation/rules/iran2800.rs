@@ -16,7 +16,7 @@ impl Table<'_> {
             return;
         };
         let sides = self.neighbours.sides.clone();
-        let own = |place: &Place| {
+        let iran2800_setback = |place: &Place| {
             [0, 1].map(|index| {
                 let Some(side) = &sides[index] else {
                     return 0.0;
@@ -26,9 +26,9 @@ impl Table<'_> {
                 iran2800_setback(place.height, side.storeys, importance > 1.0, displacement)
             })
         };
-        let widest = self.widest(|place| own(place).iter().sum());
+        let widest = self.widest(|place| iran2800_setback(place).iter().sum());
         let Some((width, place)) = widest else { return };
-        let setbacks = own(place);
+        let setbacks = iran2800_setback(place);
         self.add(
             "Standard 2800",
             Some(Code::Iran2800),

@@ -232,8 +232,8 @@ impl Table<'_> {
     }
 
     fn codes_of(&self, side: &Side) -> BuildingCodes {
-        let own = self.inputs.buildings.get(side.building);
-        own.copied().unwrap_or_default()
+        let building = self.inputs.buildings.get(side.building);
+        building.copied().unwrap_or_default()
     }
 
     /// Height of the lower neighbour \[m\].

@@ -55,15 +55,15 @@ impl StepFactors {
         self.tangents.clear();
         self.coefficients = integrator.coefficients(step);
         for (index, building) in system.buildings.iter().enumerate() {
-            let own = self.coefficients.of_building(&building.equations);
+            let coefficients = self.coefficients.of_building(&building.equations);
             equations[index]
                 .factorize(
-                    &own.matrix(),
+                    &coefficients.matrix(),
                     &tangents[building.spring_range()],
                     &mut self.factors[index],
                 )
                 .map_err(|failure| (index, failure))?;
-            self.buildings[index] = own;
+            self.buildings[index] = coefficients;
             work.factorizations += 1;
         }
         self.tangents.extend_from_slice(tangents);
@@ -87,7 +87,7 @@ impl StepFactors {
             if springs.is_empty() {
                 continue;
             }
-            let (own, wanted) = (self.buildings[index].matrix(), &tangents[springs.clone()]);
+            let (matrix, wanted) = (self.buildings[index].matrix(), &tangents[springs.clone()]);
             let factor = &mut self.factors[index];
             let done = if known {
                 let held = &mut self.tangents[springs];
@@ -101,9 +101,9 @@ impl StepFactors {
                     continue;
                 }
                 held.copy_from_slice(wanted);
-                equations[index].update(&own, wanted, &self.changed, factor)
+                equations[index].update(&matrix, wanted, &self.changed, factor)
             } else {
-                equations[index].factorize(&own, wanted, factor)
+                equations[index].factorize(&matrix, wanted, factor)
             };
             if let Err(failure) = done {
                 self.tangents.clear();
@@ -153,11 +153,11 @@ impl StepFactors {
                 continue;
             }
             let Port { building, row, .. } = &joints.points[point];
-            let own = &system.buildings[*building];
+            let system_building = &system.buildings[*building];
             let column = &mut self.columns[point];
             column.clear();
-            column.resize(own.equations.len(), 0.0);
-            row.moved_down(own.offset).push(1.0, column);
+            column.resize(system_building.equations.len(), 0.0);
+            row.moved_down(system_building.offset).push(1.0, column);
             equations[*building].solve(&self.factors[*building], column, scratch);
             work.solves += 1;
             self.ready[point] = true;
@@ -168,12 +168,12 @@ impl StepFactors {
     /// \[m/N\].
     pub(super) fn compliance(&self, c: usize, d: usize, system: &System, joints: &Joints) -> f64 {
         let mut sum = 0.0;
-        for (own, own_sign) in joints.sides[c].into_iter().zip([1.0, -1.0]) {
+        for (side, own_sign) in joints.sides[c].into_iter().zip([1.0, -1.0]) {
             for (other, sign) in joints.sides[d].into_iter().zip([1.0, -1.0]) {
-                let (Some(own), Some(other)) = (own, other) else {
+                let (Some(one), Some(other)) = (side, other) else {
                     continue;
                 };
-                let (shown, pushed) = (&joints.points[own], &joints.points[other]);
+                let (shown, pushed) = (&joints.points[one], &joints.points[other]);
                 if shown.building == pushed.building {
                     let offset = system.buildings[shown.building].offset;
                     let row = shown.row.moved_down(offset);

@@ -42,10 +42,10 @@ impl Direct {
         episode: &Episode,
         step: f64,
     ) -> StepStart {
-        let own = &run.system.contacts[contact];
+        let system_contact = &run.system.contacts[contact];
         let [shift, shift_rate, _] = run.grounds.closing(contact, 0);
-        let [closing, rate] =
-            [&self.state.displacement, &self.state.velocity].map(|list| own.ports.closing(list));
+        let [closing, rate] = [&self.state.displacement, &self.state.velocity]
+            .map(|list| system_contact.ports.closing(list));
         StepStart {
             step,
             slip: self.slip_now(run, contact),
@@ -124,17 +124,19 @@ impl Direct {
         let press = |deep: f64, rate: f64| law.follow(deep, rate, &memory).force;
         self.friction_paths[place - run.phases.len() - run.system.links.len()] =
             following.follow_from(&start, slip, pressing, press);
-        let own = &mut episode.friction;
-        let mean = 0.5 * (own.force + trial.force);
+        let friction = &mut episode.friction;
+        let mean = 0.5 * (friction.force + trial.force);
         let [from, rate] = start.slip;
         let slipped = trial.indentation - from;
-        own.impulse += step * mean;
-        own.work += mean * slipped;
+        friction.impulse += step * mean;
+        friction.work += mean * slipped;
         self.audit.friction += mean * slipped;
         self.audit.ground += mean * moved_by_grounds(run, place);
         let slip = Cubic::new(from, rate, trial.indentation, trial.rate, step);
         for at in slip.turning_points().chain([1.0]) {
-            own.slip_peak = own.slip_peak.max((slip.value(at) - own.touched_at).abs());
+            friction.slip_peak = friction
+                .slip_peak
+                .max((slip.value(at) - friction.touched_at).abs());
         }
     }
 
@@ -149,13 +151,15 @@ impl Direct {
     ) -> Option<FrictionPath> {
         let (place, friction) = self.friction_along(run, contact)?;
         let (law, trial) = (friction.law, &run.trials[place]);
-        let own = &mut episode.friction;
+        let friction = &mut episode.friction;
         let greatest = pressed.ends[0].max(pressed.ends[1]).max(pressed.peak.value);
         let mut path = self.friction_paths[place - run.phases.len() - run.system.links.len()];
         path.ends[FRICTION_PARTS - 1] = trial.force;
-        own.peak.widen(&[path], law.coefficient * greatest, span);
-        own.origin = law.origin(trial.indentation, trial.force);
-        own.force = trial.force;
+        friction
+            .peak
+            .widen(&[path], law.coefficient * greatest, span);
+        friction.origin = law.origin(trial.indentation, trial.force);
+        friction.force = trial.force;
         Some(path)
     }
 }

@@ -37,7 +37,7 @@ impl Joints {
         let links = system.links.iter().map(|link| &link.ports);
         let friction = system.frictions().map(|friction| &friction.ports);
         let all = contacts.chain(links).chain(friction);
-        joints.graph = InterfaceGraph::new(all, system.buildings.len(), |own| own);
+        joints.graph = InterfaceGraph::new(all, system.buildings.len(), |building| building);
         joints
     }
 

@@ -108,14 +108,14 @@ impl Direct {
         rate_gain: f64,
         step: f64,
     ) -> Closed {
-        let own = index - self.joints.contacts;
-        let link = &run.system.links[own];
+        let link_index = index - self.joints.contacts;
+        let link = &run.system.links[link_index];
         let trial = &run.trials[index];
-        let [start, _] = self.link_motion(run, own);
+        let [start, _] = self.link_motion(run, link_index);
         let nonlinear = (!link.is_linear()).then(|| {
             let memory = LinkMemory {
-                force: self.links.forces[own],
-                ..self.state.links[own]
+                force: self.links.forces[link_index],
+                ..self.state.links[link_index]
             };
             let links = &mut run.coupling.links;
             links.push(StepLink::new(link, &memory, start, step));
@@ -281,9 +281,9 @@ impl Direct {
     /// A sudden change of the force of a link changes the accelerations of both ends.
     fn accelerate_ends(&mut self, system: &System, index: usize, jump: f64) {
         for (end, sign) in system.links[index].ports.sides() {
-            let own = &system.buildings[end.building];
+            let building = &system.buildings[end.building];
             for &(dof, share) in end.row.entries() {
-                let mass = own.equations.mass[dof - own.offset];
+                let mass = building.equations.mass[dof - building.offset];
                 self.state.acceleration[dof] += share * sign * jump / mass;
             }
         }

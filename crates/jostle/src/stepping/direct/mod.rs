@@ -275,10 +275,10 @@ impl Direct {
         }
         let factors = &self.factors[slot];
         let k = factors.coefficients;
-        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
+        for (building, coefficients) in run.system.buildings.iter().zip(&factors.buildings) {
             for (dof, mass) in building.range().zip(&building.equations.mass) {
                 let (v, a) = (self.state.velocity[dof], self.state.acceleration[dof]);
-                let change = self.increment[dof] - own.shift * (k.d_v * v + k.d_a * a);
+                let change = self.increment[dof] - coefficients.shift * (k.d_v * v + k.d_a * a);
                 let gained = k.a * change + k.b_v * v + k.b_a * a;
                 self.unbalanced[dof] = k.carried * self.unbalanced[dof] + k.left * mass * gained;
             }
@@ -291,13 +291,13 @@ impl Direct {
         let k = factors.coefficients;
         let [now, end] = [0, 1].map(|time| run.grounds_at(time));
         let buildings = run.system.buildings.iter().zip(&factors.buildings);
-        for (index, (building, own)) in buildings.enumerate() {
+        for (index, (building, coefficients)) in buildings.enumerate() {
             let (range, equations) = (building.range(), &building.equations);
             let rises = &mut self.increment[range.clone()];
             let advance = Advance {
                 equations,
                 k: &k,
-                shift: own.shift,
+                shift: coefficients.shift,
                 increment: rises,
                 displacement: &mut self.state.displacement[range.clone()],
                 velocity: &mut self.state.velocity[range.clone()],
@@ -369,12 +369,12 @@ impl Stepper for Direct {
         if tried {
             return self.edge_ends[end];
         }
-        let own = &run.system.edge_ends[end];
+        let edge_end = &run.system.edge_ends[end];
         let (u, v) = (&self.state.displacement, &self.state.velocity);
         let [moved, rate, _] = run.grounds.closing(self.joints.of_end(end), 0);
         [
-            own.inside + own.ports.closing(u) + moved,
-            own.ports.closing(v) + rate,
+            edge_end.inside + edge_end.ports.closing(u) + moved,
+            edge_end.ports.closing(v) + rate,
         ]
     }
 
@@ -595,9 +595,10 @@ impl Stepper for Direct {
 
     /// Buildings stay behind: M Δa = −M r Δa_g.
     fn change_ground(&mut self, run: &RunState<'_>, building: usize, change: Ground) {
-        let own = &run.system.buildings[building];
-        own.equations
-            .stay_behind(change, &mut self.state.acceleration[own.range()]);
+        let building = &run.system.buildings[building];
+        building
+            .equations
+            .stay_behind(change, &mut self.state.acceleration[building.range()]);
     }
 }
 

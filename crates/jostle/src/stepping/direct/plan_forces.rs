@@ -65,13 +65,13 @@ pub(super) fn slope(
     let at = [0, 1].map(|row| rows[row].deformation + share * way[row]);
     let rates = rates(rows, memories, at);
     let force = law.answer([&memories[0], &memories[1]], at, &rates).force;
-    let own = |row: usize| {
+    let row_slope = |row: usize| {
         let SpringTrial {
             balance, on_line, ..
         } = rows[row];
         way[row] * (force[row] - balance - share * (on_line - balance))
     };
-    own(0) + own(1)
+    row_slope(0) + row_slope(1)
 }
 
 /// Motion along x and across over a step that ends at a displacement.

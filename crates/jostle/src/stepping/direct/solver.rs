@@ -47,9 +47,11 @@ impl SolverEquations {
         factor: &mut SolverFactor,
     ) -> Result<(), NotPositive> {
         match self {
-            Self::Riccati(own) => own.factorize(matrix, tangents, &mut factor.riccati),
-            Self::Stiffness(own) => own.factorize(matrix, tangents, &mut factor.stiffness),
-            Self::Product(own) => own.factorize(matrix, tangents, &mut factor.product),
+            Self::Riccati(riccati) => riccati.factorize(matrix, tangents, &mut factor.riccati),
+            Self::Stiffness(stiffness) => {
+                stiffness.factorize(matrix, tangents, &mut factor.stiffness)
+            }
+            Self::Product(product) => product.factorize(matrix, tangents, &mut factor.product),
         }
     }
 
@@ -62,9 +64,15 @@ impl SolverEquations {
         factor: &mut SolverFactor,
     ) -> Result<(), NotPositive> {
         match self {
-            Self::Riccati(own) => own.update(matrix, tangents, changed, &mut factor.riccati),
-            Self::Stiffness(own) => own.update(matrix, tangents, changed, &mut factor.stiffness),
-            Self::Product(own) => own.update(matrix, tangents, changed, &mut factor.product),
+            Self::Riccati(riccati) => {
+                riccati.update(matrix, tangents, changed, &mut factor.riccati)
+            }
+            Self::Stiffness(stiffness) => {
+                stiffness.update(matrix, tangents, changed, &mut factor.stiffness)
+            }
+            Self::Product(product) => {
+                product.update(matrix, tangents, changed, &mut factor.product)
+            }
         }
     }
 
@@ -76,9 +84,9 @@ impl SolverEquations {
         scratch: &mut RiccatiScratch,
     ) {
         match self {
-            Self::Riccati(own) => own.solve(&factor.riccati, load, scratch),
-            Self::Stiffness(own) => own.solve(&factor.stiffness, load, &mut ()),
-            Self::Product(own) => own.solve(&factor.product, load, &mut ()),
+            Self::Riccati(riccati) => riccati.solve(&factor.riccati, load, scratch),
+            Self::Stiffness(stiffness) => stiffness.solve(&factor.stiffness, load, &mut ()),
+            Self::Product(product) => product.solve(&factor.product, load, &mut ()),
         }
     }
 }

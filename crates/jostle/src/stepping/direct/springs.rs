@@ -200,7 +200,7 @@ impl Direct {
         }
         let factors = &self.factors[slot];
         let k = factors.coefficients;
-        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
+        for (building, coefficients) in run.system.buildings.iter().zip(&factors.buildings) {
             let range = building.range();
             let (v, a) = (
                 &self.state.velocity[range.clone()],
@@ -212,7 +212,7 @@ impl Direct {
             for (spring, (trial, tangent)) in equations.springs.iter().zip(known) {
                 let rate = spring.deformation(v);
                 let rate_term = k.d_v * rate + k.d_a * spring.deformation(a);
-                trial.rate_term = own.shift * rate_term;
+                trial.rate_term = coefficients.shift * rate_term;
                 trial.rates = Rates {
                     before: rate,
                     after: rate + rate_term,
@@ -250,10 +250,11 @@ impl Direct {
         building: usize,
         source: NotPositive,
     ) -> StepError {
-        let own = &run.system.buildings[building];
-        let (building, time) = (own.name.clone(), run.time);
+        let system_building = &run.system.buildings[building];
+        let (building, time) = (system_building.name.clone(), run.time);
         let falls = |tangents: &[f64]| tangents.iter().any(|tangent| *tangent < 0.0);
-        let springs = own.spring_offset..own.spring_offset + own.equations.single_springs;
+        let springs = system_building.spring_offset
+            ..system_building.spring_offset + system_building.equations.single_springs;
         let yielding = &self.yielding;
         if [&yielding.wanted, &yielding.tangents]
             .iter()
@@ -300,14 +301,14 @@ impl Direct {
             let increment = &self.increment[range];
             let memories = &self.state.springs[springs.clone()];
             let single = building.equations.single_springs;
-            let (own, in_plan) = building.equations.springs.split_at(single);
+            let (uniaxial, in_plan) = building.equations.springs.split_at(single);
             let (trials, rows) = self.yielding.trials[springs].split_at_mut(single);
             let reach = |spring: &YieldingSpring, trial: &mut SpringTrial, memory: &_| {
                 let change = spring.deformation(increment) - trial.rate_term;
                 trial.reached = HysteresisMemory::deformation(memory) + change;
                 trial.on_line = trial.force + trial.tangent * (trial.reached - trial.deformation);
             };
-            for ((spring, trial), memory) in own.iter().zip(trials).zip(memories) {
+            for ((spring, trial), memory) in uniaxial.iter().zip(trials).zip(memories) {
                 reach(spring, trial, memory);
                 let rates = trial.rates_to(memory, trial.reached);
                 [trial.answer, trial.next_tangent] =
@@ -333,11 +334,11 @@ impl Direct {
             for building in &run.system.buildings {
                 let range = building.spring_range();
                 let single = building.equations.single_springs;
-                let (own, in_plan) = building.equations.springs.split_at(single);
+                let (uniaxial, in_plan) = building.equations.springs.split_at(single);
                 let trials = &direct.yielding.trials[range.clone()];
                 let memories = &direct.state.springs[range];
                 let known = trials.iter().zip(memories);
-                for (spring, (trial, memory)) in own.iter().zip(known) {
+                for (spring, (trial, memory)) in uniaxial.iter().zip(known) {
                     let way = trial.reached - trial.deformation;
                     let at = trial.deformation + share * way;
                     let balance = trial.balance + share * (trial.on_line - trial.balance);
@@ -369,14 +370,14 @@ impl Direct {
         for building in &run.system.buildings {
             let range = building.spring_range();
             let single = building.equations.single_springs;
-            let (own, in_plan) = building.equations.springs.split_at(single);
+            let (uniaxial, in_plan) = building.equations.springs.split_at(single);
             let (trials, rows) = self.yielding.trials[range.clone()].split_at_mut(single);
             let memories = &self.state.springs[range];
             let go_back = |trial: &mut SpringTrial| {
                 trial.reached = trial.deformation + high * (trial.reached - trial.deformation);
                 trial.on_line = trial.balance + high * (trial.on_line - trial.balance);
             };
-            for (spring, (trial, memory)) in own.iter().zip(trials.iter_mut().zip(memories)) {
+            for (spring, (trial, memory)) in uniaxial.iter().zip(trials.iter_mut().zip(memories)) {
                 go_back(trial);
                 let rates = trial.rates_to(memory, trial.reached);
                 [trial.answer, trial.next_tangent] =

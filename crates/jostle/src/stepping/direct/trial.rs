@@ -60,7 +60,7 @@ impl Direct {
     /// Loads of the incremental step, contacts of its end not yet pushing (theory, Eq. N3).
     fn fill_loads(&mut self, run: &RunState<'_>, slot: usize) {
         let [now, end] = [0, 1].map(|time| run.grounds_at(time));
-        for (index, (building, own)) in run
+        for (index, (building, coefficients)) in run
             .system
             .buildings
             .iter()
@@ -71,7 +71,7 @@ impl Direct {
             let change = end.of(index)[0] - now.of(index)[0];
             let loads = Loads {
                 equations,
-                own,
+                own: coefficients,
                 change,
                 velocity: &self.state.velocity[range.clone()],
                 acceleration: &self.state.acceleration[range.clone()],
@@ -104,7 +104,7 @@ impl Direct {
     fn add_undamped_loads(&mut self, run: &RunState<'_>, slot: usize) {
         let factors = &self.factors[slot];
         let k = factors.coefficients;
-        for (building, own) in run.system.buildings.iter().zip(&factors.buildings) {
+        for (building, coefficients) in run.system.buildings.iter().zip(&factors.buildings) {
             let (range, equations) = (building.range(), &building.equations);
             if equations.plain {
                 continue;
@@ -117,11 +117,11 @@ impl Direct {
             let weighted =
                 |weight: f64| move |(v, a): (&f64, &f64)| weight * (k.d_v * v + k.d_a * a);
             for (rate_term, motion) in rate_term.iter_mut().zip(motion.clone()) {
-                *rate_term = weighted(own.shift)(motion);
+                *rate_term = weighted(coefficients.shift)(motion);
             }
             equations.undamped.multiply_add(rate_term, load);
             for (rate_term, motion) in rate_term.iter_mut().zip(motion) {
-                *rate_term = weighted(-own.dashpot_load)(motion);
+                *rate_term = weighted(-coefficients.dashpot_load)(motion);
             }
             equations.dashpots.multiply_add(rate_term, load);
         }
@@ -140,7 +140,10 @@ impl Direct {
         let contacts = contacts.map(|(contact, width)| (&contact.ports, *width));
         let links = run.system.links.iter();
         let links = links.map(|link| (&link.ports, link.closing_at_rest));
-        let friction = run.system.frictions().map(|own| (&own.ports, 0.0));
+        let friction = run
+            .system
+            .frictions()
+            .map(|friction| (&friction.ports, 0.0));
         let joints = contacts.chain(links).chain(friction);
         let joints = joints.zip(&mut run.trials).enumerate();
         let moved = |ports: &PortPair| {
@@ -216,11 +219,11 @@ impl Direct {
             run.coupling.closed.push(closed);
             run.coupling.places.push(place);
         }
-        for own in 0..run.coupling.closed.len() {
-            if let Some(friction) = run.coupling.closed[own].friction {
+        for index in 0..run.coupling.closed.len() {
+            if let Some(friction) = run.coupling.closed[index].friction {
                 let mut all = run.coupling.closed.iter();
                 let normal = all.position(|closed| closed.contact == friction.contact);
-                run.coupling.closed[own].friction =
+                run.coupling.closed[index].friction =
                     normal.map(|normal| StepFriction { normal, ..friction });
             }
         }
@@ -277,8 +280,8 @@ impl Direct {
         coupling.compliance.reset(firsts);
         for row in 0..coupling.closed.len() {
             for column in coupling.compliance.columns(row) {
-                let [own, other] = [row, column].map(|i| coupling.closed[i].contact);
-                let value = factors.compliance(own, other, run.system, &self.joints);
+                let [contact, other] = [row, column].map(|i| coupling.closed[i].contact);
+                let value = factors.compliance(contact, other, run.system, &self.joints);
                 coupling.compliance.set(row, column, value);
             }
         }

@@ -28,24 +28,30 @@ impl JumpFactor {
         equations: &SolverEquations,
         tangents: &[f64],
     ) -> Option<Self> {
-        let own = &building.equations;
+        let building_equations = &building.equations;
         let mut matrix = StepMatrix {
-            stiffness: 1.0 + own.beta * SUDDEN,
+            stiffness: 1.0 + building_equations.beta * SUDDEN,
             mass: 0.0,
             dashpots: SUDDEN,
         };
-        let stiffest = (0..own.len()).filter(|&dof| own.mass[dof] > 0.0);
+        let stiffest =
+            (0..building_equations.len()).filter(|&dof| building_equations.mass[dof] > 0.0);
         let stiffest = stiffest
             .map(|dof| {
-                let stiffness = matrix.stiffness * own.stiffness.diagonal[dof];
-                let dashpots = matrix.dashpots * own.dashpots.diagonal[dof];
-                (stiffness + dashpots + own.undamped.diagonal[dof]) / own.mass[dof]
+                let stiffness = matrix.stiffness * building_equations.stiffness.diagonal[dof];
+                let dashpots = matrix.dashpots * building_equations.dashpots.diagonal[dof];
+                (stiffness + dashpots + building_equations.undamped.diagonal[dof])
+                    / building_equations.mass[dof]
             })
             .fold(1.0, f64::max);
         matrix.mass = HEAVY * stiffest;
-        let mut stiffness = own.initial_tangents();
-        for ((stiffness, spring), tangent) in stiffness.iter_mut().zip(&own.springs).zip(tangents) {
-            *stiffness += SUDDEN * own.tangent_dashpot(spring, *tangent);
+        let mut stiffness = building_equations.initial_tangents();
+        for ((stiffness, spring), tangent) in stiffness
+            .iter_mut()
+            .zip(&building_equations.springs)
+            .zip(tangents)
+        {
+            *stiffness += SUDDEN * building_equations.tangent_dashpot(spring, *tangent);
         }
         let mut factor = SolverFactor::default();
         equations
@@ -109,9 +115,9 @@ impl JumpScratch {
 fn compliance_at_once(system: &System, contact: usize) -> f64 {
     let sides = system.contacts[contact].ports.sides();
     let gives = sides.map(|(port, _)| {
-        let own = &system.buildings[port.building];
-        let row = port.row.moved_down(own.offset);
-        1.0 / row.moving_mass(&own.equations.mass)
+        let building = &system.buildings[port.building];
+        let row = port.row.moved_down(building.offset);
+        1.0 / row.moving_mass(&building.equations.mass)
     });
     gives.sum()
 }
@@ -155,51 +161,66 @@ impl Direct {
     fn push_at_once(&mut self, run: &mut RunState<'_>, port: &Port, impulse: f64) {
         let building = port.building;
         let system = &run.system.buildings[building];
-        let (range, own) = (system.range(), &system.equations);
-        let massless = own.mass.contains(&0.0);
+        let (range, building_equations) = (system.range(), &system.equations);
+        let massless = building_equations.mass.contains(&0.0);
         let springs = system.spring_range();
         // Dashpots at the tangents of springs change from jump to jump.
-        let changes = own.springs.iter().any(|spring| spring.damped_by_tangent);
+        let changes = building_equations
+            .springs
+            .iter()
+            .any(|spring| spring.damped_by_tangent);
         if massless && (changes || self.jump_factors[building].is_none()) {
             let tangents = &self.yielding.tangents[springs.clone()];
             self.jump_factors[building] =
                 JumpFactor::new(system, &self.equations[building], tangents);
             run.work.factorizations += 1;
         }
-        self.jump.clear(own.len());
+        self.jump.clear(building_equations.len());
         let JumpScratch {
             velocity,
             acceleration,
             load,
         } = &mut self.jump;
         for &(dof, share) in port.row.moved_down(system.offset).entries() {
-            velocity[dof] = share * impulse / own.mass[dof];
+            velocity[dof] = share * impulse / building_equations.mass[dof];
         }
         let mut follow = |motion: &mut [f64]| {
             if let Some(jump) = self.jump_factors[building].as_ref().filter(|_| massless) {
                 let (equations, scratch) = (&self.equations[building], &mut self.scratch);
-                jump.follow(equations, &own.mass, motion, load, scratch);
+                jump.follow(equations, &building_equations.mass, motion, load, scratch);
             }
         };
         follow(velocity);
-        if own.beta > 0.0 {
-            own.stiffness.multiply_add(velocity, acceleration);
-            acceleration.iter_mut().for_each(|force| *force *= own.beta);
+        if building_equations.beta > 0.0 {
+            building_equations
+                .stiffness
+                .multiply_add(velocity, acceleration);
+            acceleration
+                .iter_mut()
+                .for_each(|force| *force *= building_equations.beta);
         }
-        own.dashpots.multiply_add(velocity, acceleration);
+        building_equations
+            .dashpots
+            .multiply_add(velocity, acceleration);
         if changes {
             let tangents = &self.yielding.tangents[springs.clone()];
             let damped = self.yielding.damped[springs].iter_mut();
-            for (spring, (damped, tangent)) in own.springs.iter().zip(damped.zip(tangents)) {
+            for (spring, (damped, tangent)) in
+                building_equations.springs.iter().zip(damped.zip(tangents))
+            {
                 let rate = spring.deformation(velocity);
-                let change = own.tangent_dashpot(spring, *tangent) * rate;
+                let change = building_equations.tangent_dashpot(spring, *tangent) * rate;
                 spring.row.push(change, acceleration);
                 *damped += change;
             }
         }
-        for ((a, v), mass) in acceleration.iter_mut().zip(&*velocity).zip(&own.mass) {
+        for ((a, v), mass) in acceleration
+            .iter_mut()
+            .zip(&*velocity)
+            .zip(&building_equations.mass)
+        {
             *a = if *mass > 0.0 {
-                -own.alpha * v - *a / mass
+                -building_equations.alpha * v - *a / mass
             } else {
                 0.0
             };

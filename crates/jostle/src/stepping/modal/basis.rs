@@ -200,8 +200,8 @@ impl<'a> Growing<'a> {
             answers: answers
                 .iter()
                 .zip(loaded(demand))
-                .map(|(answer, own)| {
-                    let places = demand.floors.iter().chain(own);
+                .map(|(answer, loaded_row)| {
+                    let places = demand.floors.iter().chain(loaded_row);
                     let shown = |place: &Row| {
                         let entries = place.entries().iter();
                         entries.map(|&(dof, c)| c * answer[dof][met + index]).sum()
@@ -267,12 +267,12 @@ impl<'a> Growing<'a> {
             factor.ok_or(NotPositive { dof: 0 })?.solve(&mut answers);
             let columns = answers.iter().zip(&loads).zip(loaded(self.demand));
             let mut of_loads = columns.zip(&wanted.answers);
-            let close = of_loads.all(|(((got, load), own), wanted)| {
+            let close = of_loads.all(|(((got, load), candidate), wanted)| {
                 let sizes = wanted.iter().map(|answer| answer.abs());
                 let quiet = QUIET * sizes.fold(0.0, f64::max);
                 // The contact point itself comes last, with a smaller tolerance.
                 let floors = floors.iter().map(|shown| (shown, FLOOR_SHARE));
-                let mut places = floors.chain(own.map(|_| (load, 1.0))).zip(wanted);
+                let mut places = floors.chain(candidate.map(|_| (load, 1.0))).zip(wanted);
                 places.all(|((shown, share), wanted)| {
                     let got: f64 = got.iter().zip(shown).map(|(a, b)| a * b).sum();
                     (got - wanted).abs() <= share * self.demand.tolerance * wanted.abs().max(quiet)

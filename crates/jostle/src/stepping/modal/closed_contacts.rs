@@ -95,12 +95,12 @@ impl ModalStepper<'_> {
                     PredictedForce::of_contact(pressed, episode, drift, [run.time, step]);
                 (None, predicted, episode.force)
             } else {
-                let Some(mut own) = friction_of(run, contact, episode) else {
+                let Some(mut friction) = friction_of(run, contact, episode) else {
                     continue;
                 };
                 let before = episode.friction.force;
-                let predicted = self.predict_friction(run, index, &mut own, before, step);
-                (Some(own), predicted, before)
+                let predicted = self.predict_friction(run, index, &mut friction, before, step);
+                (Some(friction), predicted, before)
             };
             let closed = Closed {
                 contact: index,
@@ -139,15 +139,15 @@ impl ModalStepper<'_> {
         }
         let equations = &mut self.plan_equations;
         equations.list_points(plan, closed);
-        for (point, own) in closed.iter().enumerate() {
-            let start = match (&own.friction, own.contact) {
+        for (point, closed_contact) in closed.iter().enumerate() {
+            let start = match (&closed_contact.friction, closed_contact.contact) {
                 (Some(friction), _) => match &run.phases[friction.contact] {
                     ContactPhase::Closed(episode) => episode.friction.force,
                     ContactPhase::Open => 0.0,
                 },
                 (None, contact) => run.phases[contact].force(),
             };
-            let bend = self.predicted[own.contact].bend(start, 0.0);
+            let bend = self.predicted[closed_contact.contact].bend(start, 0.0);
             equations.add_bend(point, bend);
         }
         equations.push_bends(self.reduced, plan, &mut self.bend);
@@ -213,18 +213,18 @@ impl ModalStepper<'_> {
         &mut self,
         run: &RunState<'_>,
         index: usize,
-        own: &mut StepFriction,
+        friction: &mut StepFriction,
         before: f64,
         step: f64,
     ) -> PredictedForce {
-        let ContactPhase::Closed(episode) = &run.phases[own.contact] else {
+        let ContactPhase::Closed(episode) = &run.phases[friction.contact] else {
             return PredictedForce::default();
         };
-        let contact = &run.system.contacts[own.contact];
-        let pressing = self.drift(run, own.contact, step);
+        let contact = &run.system.contacts[friction.contact];
+        let pressing = self.drift(run, friction.contact, step);
         let sliding = self.drift(run, index, step);
-        let width = run.widths[own.contact];
-        let path = own.follow(before, |share| {
+        let width = run.widths[friction.contact];
+        let path = friction.follow(before, |share| {
             let [closing, rate] = pressing.after(share * step);
             let indentation = closing - width;
             let pressed = contact.law.follow(indentation, rate, &episode.memory);

@@ -29,10 +29,10 @@ pub(super) struct CornerPeaks {
 }
 
 impl CornerPeaks {
-    pub(super) fn new(building: &BuildingSystem, own: &ReducedBuilding) -> Self {
+    pub(super) fn new(building: &BuildingSystem, reduced_building: &ReducedBuilding) -> Self {
         let row = |row: &Row| {
             let mut sum = PlanRow {
-                places: [own.watched.start; 6],
+                places: [reduced_building.watched.start; 6],
                 weights: [0.0; 6],
             };
             for (dof, weight) in row.entries() {
@@ -41,7 +41,7 @@ impl CornerPeaks {
                 // Every floor has its tracks.
                 let track = track.unwrap_or(0);
                 let slot = slot_of(building.tracks[track].direction);
-                sum.places[slot] = own.watched.start + track;
+                sum.places[slot] = reduced_building.watched.start + track;
                 sum.weights[slot] = *weight;
             }
             // What does not count moves along, from floor to floor.
@@ -72,7 +72,7 @@ impl CornerPeaks {
             arms[corner.floor] = arms[corner.floor].max(arm);
         }
         Self {
-            tracks: [0, 1, 2].map(|block| own.watched.start + block * count),
+            tracks: [0, 1, 2].map(|block| reduced_building.watched.start + block * count),
             arms,
             rows,
             floors,

@@ -51,9 +51,9 @@ impl Defects {
             for (vectors, vector) in vectors.iter_mut().zip([shape, answer]) {
                 vectors[mode] = vector.to_vec();
             }
-            let own = shape.iter().zip(mass).zip(answer);
-            let own: f64 = own.map(|((v, m), y)| v * m * y).sum();
-            found.detuning[mode] = (whole * (whole * own - 1.0) / theta).max(0.0);
+            let shape = shape.iter().zip(mass).zip(answer);
+            let product: f64 = shape.map(|((v, m), y)| v * m * y).sum();
+            found.detuning[mode] = (whole * (whole * product - 1.0) / theta).max(0.0);
         })?;
         let [of_shapes, of_answers] =
             vectors.map(|vectors| force_rows::of_vectors(building, &vectors));

@@ -102,13 +102,13 @@ impl ModalStepper<'_> {
             let moved = [0, 1].map(|time| self.reduced.driven(&self.q[time]));
             return by_parts(run.ground, moved, self.reduced.driven(&self.scratch));
         }
-        let own = |building: usize| {
+        let parts = |building: usize| {
             let driven = |list: &[f64]| self.reduced.driven_of(building, list);
             let moved = [0, 1].map(|time| driven(&self.q[time]));
             let grounds = grounds.map(|all| all.of(building));
             by_parts(grounds, moved, driven(&self.scratch))
         };
-        (0..self.reduced.buildings.len()).map(own).sum()
+        (0..self.reduced.buildings.len()).map(parts).sum()
     }
 
     /// ∫ F δ̇ dt of every closed contact, by parts; ∫q stands in `scratch` and ∫τq in `moment`.

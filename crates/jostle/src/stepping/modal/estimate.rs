@@ -56,7 +56,8 @@ const LOOK_EVERY: u32 = 4;
 impl Reached {
     pub(super) fn new(reduced: &Reduced) -> Self {
         let modes = reduced.modes();
-        let floors = |own: &ReducedBuilding| vec![[Widened::default(); KINDS]; own.floors];
+        let floors =
+            |building: &ReducedBuilding| vec![[Widened::default(); KINDS]; building.floors];
         Self {
             free: vec![0.0; modes],
             all: vec![0.0; modes],
@@ -102,30 +103,32 @@ impl Reached {
         for ((quick, a), k) in quickened.zip(&reduced.stiffness) {
             *quick = a * k;
         }
-        for (index, own) in reduced.buildings.iter().enumerate() {
-            if own.missed.is_empty() {
+        for (index, building) in reduced.buildings.iter().enumerate() {
+            if building.missed.is_empty() {
                 continue;
             }
-            let (modes, places) = (own.modes.clone(), own.watched.clone());
+            let (modes, places) = (building.modes.clone(), building.watched.clone());
             let [slow, quick] = &mut self.missed;
             let (slow, quick) = (&mut slow[places.clone()], &mut quick[places.clone()]);
             reduced.arch().dispatch(Show {
-                blocks: &own.missed,
+                blocks: &building.missed,
                 modal: [&accelerations[modes.clone()], &self.quickened[modes]],
                 watched: [&mut *slow, &mut *quick],
             });
-            let own_forces = own.forces.clone();
+            let own_forces = building.forces.clone();
             reduced.arch().dispatch(Show {
-                blocks: &own.forces_off,
-                modal: [&accelerations[own.modes.clone()]],
+                blocks: &building.forces_off,
+                modal: [&accelerations[building.modes.clone()]],
                 watched: [&mut self.forces_missed[own_forces.clone()]],
             });
             let (known, missed) = (&forces[own_forces.clone()], &self.forces_missed[own_forces]);
             let storeys = system.buildings[index].storeys.len();
             let (u, a) = (&watched.u[places.clone()], &watched.acceleration[places]);
             let ground = grounds.of(index);
-            let mut below = own.foot.map_or((0.0, 0.0), |foot| (u[foot], slow[foot]));
-            let shear = own.shear - own.watched.start;
+            let mut below = building
+                .foot
+                .map_or((0.0, 0.0), |foot| (u[foot], slow[foot]));
+            let shear = building.shear - building.watched.start;
             for (at, widened) in self.floors[index].iter_mut().enumerate() {
                 let track = &system.buildings[index].tracks[at];
                 if track.is_lowest && track.direction != Direction::Along {
@@ -156,41 +159,42 @@ impl Reached {
         tolerance: f64,
     ) -> Vec<Vec<usize>> {
         let of_building = |index: usize| {
-            let own = &reduced.buildings[index];
+            let building = &reduced.buildings[index];
             let floors = &system.buildings[index].floors;
             let scales = scales(
                 &peaks.floors[index][..floors.len()],
                 peaks.base_shear[index],
             );
             let share = |mode: usize| {
-                let missed = |place: usize| own.of_blocks(&own.missed, place, mode);
-                let (mut most, mut below) = (0.0_f64, own.foot.map_or(0.0, missed));
+                let missed = |place: usize| building.of_blocks(&building.missed, place, mode);
+                let (mut most, mut below) = (0.0_f64, building.foot.map_or(0.0, missed));
                 for (place, floor) in floors.iter().enumerate() {
                     let missed = missed(place);
                     let drift = (missed - below) / floor.storey_height;
-                    let quick = missed * reduced.stiffness[own.modes.start + mode];
+                    let quick = missed * reduced.stiffness[building.modes.start + mode];
                     let kinds = [missed / scales[0], drift / scales[1], quick / scales[2]];
                     most = kinds
                         .into_iter()
                         .fold(most, |most, kind| most.max(kind.abs()));
                     below = missed;
                 }
-                let shear = missed(own.shear - own.watched.start) / scales[3];
+                let shear = missed(building.shear - building.watched.start) / scales[3];
                 for storey in 0..floors.len() {
-                    let force = |place: usize| own.of_blocks(&own.forces_off, place, mode);
+                    let force =
+                        |place: usize| building.of_blocks(&building.forces_off, place, mode);
                     let moment = force(floors.len() + storey) / scales[5];
                     most = most
                         .max((force(storey) / scales[4]).abs())
                         .max(moment.abs());
                 }
                 let members = peaks.members.as_ref();
-                most = most.max(members.map_or(0.0, |m| m.off_by_mode(&own.members, mode)));
-                most.max(shear.abs()) * self.all[own.modes.start + mode]
+                most = most.max(members.map_or(0.0, |m| m.off_by_mode(&building.members, mode)));
+                most.max(shear.abs()) * self.all[building.modes.start + mode]
             };
-            if own.missed.is_empty() {
+            if building.missed.is_empty() {
                 return Vec::new();
             }
-            let modes = 0..own.modes.len();
+            let modes = 0..building.modes.len();
             modes
                 .filter(|mode| share(*mode) > WORTH_ADDING * tolerance)
                 .collect()
@@ -232,9 +236,11 @@ impl Estimate {
         let together = if struck { 1.0 } else { TOGETHER };
         let mut worst = Self::default();
         for (index, building) in system.buildings.iter().enumerate() {
-            let own = &reduced.buildings[index];
-            let modes = own.modes.clone();
-            let shape = |place: usize, mode: usize| own.of_blocks(&own.blocks, place, mode);
+            let reduced_building = &reduced.buildings[index];
+            let modes = reduced_building.modes.clone();
+            let shape = |place: usize, mode: usize| {
+                reduced_building.of_blocks(&reduced_building.blocks, place, mode)
+            };
             let k = |mode: usize| reduced.stiffness[modes.start + mode];
             let free = |mode: usize| reached.free[modes.start + mode] * k(mode) / 384.0;
             let sum = |term: &dyn Fn(usize) -> f64| {
@@ -251,7 +257,7 @@ impl Estimate {
                     let floor = &building.tracks[place];
                     let below = match place.checked_sub(1).filter(|_| !floor.is_lowest) {
                         Some(below) => Some(below),
-                        None => own.foot,
+                        None => reduced_building.foot,
                     };
                     let drift = |mode: usize| {
                         let below = below.map_or(0.0, |below| shape(below, mode));
@@ -262,13 +268,19 @@ impl Estimate {
                     between[2] = between[2].max(sum(&|mode| k(mode) * shape(place, mode)));
                 }
                 for storey in places.clone().filter(|storey| *storey < storeys) {
-                    let force =
-                        |place: usize, mode: usize| own.of_blocks(&own.force_blocks, place, mode);
+                    let force = |place: usize, mode: usize| {
+                        reduced_building.of_blocks(&reduced_building.force_blocks, place, mode)
+                    };
                     between[4] = between[4].max(sum(&|mode| force(storey, mode)));
                     between[5] = between[5].max(sum(&|mode| force(storeys + storey, mode)));
                 }
                 if first == 0 {
-                    between[3] = sum(&|mode| shape(own.shear - own.watched.start, mode));
+                    between[3] = sum(&|mode| {
+                        shape(
+                            reduced_building.shear - reduced_building.watched.start,
+                            mode,
+                        )
+                    });
                 }
                 for kind in 0..KINDS {
                     let floors = reached.floors[index][places.clone()].iter();
@@ -283,7 +295,7 @@ impl Estimate {
                 }
             }
             if let Some(members) = &peaks.members {
-                let [shapes, between] = members.errors(&own.members, free);
+                let [shapes, between] = members.errors(&reduced_building.members, free);
                 worst.shapes = worst.shapes.max(shapes);
                 worst.between = worst.between.max(together * between);
             }
@@ -306,7 +318,7 @@ fn scales_in_space(
         return lateral;
     }
     let radius = building.radius_of_gyration();
-    let own = scales(&floors[first..], 0.0);
+    let scales = scales(&floors[first..], 0.0);
     let units = [
         1.0 / radius,
         1.0 / radius,
@@ -315,7 +327,7 @@ fn scales_in_space(
         radius,
         radius,
     ];
-    std::array::from_fn(|kind| own[kind].max(LEAST_ROTATION * lateral[kind] * units[kind]))
+    std::array::from_fn(|kind| scales[kind].max(LEAST_ROTATION * lateral[kind] * units[kind]))
 }
 
 /// The greatest of every kind in a building.

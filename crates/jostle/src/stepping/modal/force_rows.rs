@@ -21,8 +21,8 @@ pub(super) fn of_vectors(building: &BuildingSystem, vectors: &[Vec<f64>]) -> Vec
     let mut rows = vec![vec![0.0; vectors.len()]; count(building)];
     let elastic = |_| 0.0;
     for (index, vector) in vectors.iter().enumerate() {
-        let link = |own: usize| {
-            let link = &building.inner_links[own];
+        let link = |index: usize| {
+            let link = &building.inner_links[index];
             link.stiffness * link.shortening.value(vector)
         };
         building
@@ -62,8 +62,8 @@ pub(super) fn of_dashpots(building: &BuildingSystem, modes: &RitzModes) -> Vec<V
     let mut rows = vec![vec![0.0; modes.vectors.len()]; 2 * storeys];
     let resting = vec![0.0; building.equations.len()];
     for (index, vector) in modes.vectors.iter().enumerate() {
-        let link = |own: usize| {
-            let link = &building.inner_links[own];
+        let link = |index: usize| {
+            let link = &building.inner_links[index];
             link.damping * link.shortening.value(vector)
         };
         building.storeys.for_each(

@@ -54,15 +54,15 @@ impl ModalStepper<'_> {
         if let Some(rounds) = found {
             run.work.iterations += rounds;
         } else {
-            for (point, own) in closed.iter_mut().enumerate() {
+            for (point, closed_contact) in closed.iter_mut().enumerate() {
                 let [closing, rate] = equations.free_of(point);
-                let width = match own.friction {
+                let width = match closed_contact.friction {
                     Some(_) => 0.0,
-                    None => run.widths[own.contact],
+                    None => run.widths[closed_contact.contact],
                 };
-                (own.free, own.free_rate) = (closing - width, rate);
-                own.indentation = own.free;
-                run.trials[own.contact].rate = rate;
+                (closed_contact.free, closed_contact.free_rate) = (closing - width, rate);
+                closed_contact.indentation = closed_contact.free;
+                run.trials[closed_contact.contact].rate = rate;
             }
             equations.spread(reduced, &run.coupling.places, &mut self.equations.openings);
             self.begin_with_foreseen(run);
@@ -88,11 +88,11 @@ impl ModalStepper<'_> {
         let [openings, rates] = &mut self.equations.openings;
         openings.reset(reduced.graph.first_coupled(&run.coupling.places));
         rates.reset_like(openings);
-        for (row, own) in closed.iter().enumerate() {
+        for (row, closed_contact) in closed.iter().enumerate() {
             for column in openings.columns(row) {
                 let from = closed[column].contact;
                 let answer = self.tables[slot].answer(from);
-                let [opening, rate] = answer.opening(own.contact, from, reduced);
+                let [opening, rate] = answer.opening(closed_contact.contact, from, reduced);
                 openings.set(row, column, opening);
                 rates.set(row, column, rate);
             }

@@ -88,18 +88,18 @@ fn fill_lanes<const N: usize>(
     lanes.resize(reduced.modes().div_ceil(LANES), Lanes::default());
     *by_ground = ByGround::default();
     for mode in 0..reduced.modes() {
-        let (own, lane) = (&mut lanes[mode / LANES], mode % LANES);
+        let (block, lane) = (&mut lanes[mode / LANES], mode % LANES);
         for column in 0..2 {
-            own.displacement[column][lane] = table.displacement[column][mode];
-            own.velocity[column][lane] = table.velocity[column][mode];
+            block.displacement[column][lane] = table.displacement[column][mode];
+            block.velocity[column][lane] = table.velocity[column][mode];
         }
         let [aa, ab, ac, ad, _, bb, bc, bd, _, cc, cd, _, dd, _, _] =
             table.damped.each_ref().map(|list| list[mode]);
-        for (entry, value) in own.damped.iter_mut().zip([aa, ab, bb]) {
+        for (entry, value) in block.damped.iter_mut().zip([aa, ab, bb]) {
             entry[lane] = value;
         }
         let participations = [&reduced.participation, &reduced.across];
-        for (axis, driven) in own.driven.iter_mut().enumerate() {
+        for (axis, driven) in block.driven.iter_mut().enumerate() {
             let participation = participations[axis][mode];
             for column in 0..2 {
                 driven.displacement[column][lane] =
@@ -123,8 +123,8 @@ fn fill_lanes<const N: usize>(
                 }
             }
         }
-        own.damping[lane] = reduced.damping[mode];
-        own.stiffness[lane] = reduced.stiffness[mode];
+        block.damping[lane] = reduced.damping[mode];
+        block.stiffness[lane] = reduced.stiffness[mode];
     }
 }
 
@@ -176,13 +176,13 @@ impl FreeSteps {
 
     /// Monitored quantities after a number of steps.
     fn watched(&self, places: usize, steps: usize) -> Watched<'_> {
-        let own = steps * places..(steps + 1) * places;
+        let range = steps * places..(steps + 1) * places;
         let [u, rate, acceleration, unloaded_jerk] = &self.shown;
         Watched {
-            u: &u[own.clone()],
-            rate: &rate[own.clone()],
-            acceleration: &acceleration[own.clone()],
-            unloaded_jerk: &unloaded_jerk[own],
+            u: &u[range.clone()],
+            rate: &rate[range.clone()],
+            acceleration: &acceleration[range.clone()],
+            unloaded_jerk: &unloaded_jerk[range],
         }
     }
 
@@ -224,9 +224,9 @@ impl<const N: usize> WithSimd for FreeStepsKernel<'_, N> {
             for building in &reduced.buildings {
                 let from = step * stride;
                 let modes = from + building.modes.start..from + building.modes.end;
-                let own = &building.watched;
+                let building_watched = &building.watched;
                 let from = (step + 1) * places;
-                let places = from + own.start..from + own.end;
+                let places = from + building_watched.start..from + building_watched.end;
                 let [first, second, third, fourth] = &mut *shown;
                 let show = Show {
                     blocks: &building.blocks,
@@ -244,8 +244,8 @@ impl<const N: usize> WithSimd for FreeStepsKernel<'_, N> {
         let Some(plan) = &reduced.plan else { return };
         for list in shown {
             for step in 1..=steps {
-                let own = &mut list[step * places..(step + 1) * places];
-                plan.fill(reduced.arch(), own);
+                let values = &mut list[step * places..(step + 1) * places];
+                plan.fill(reduced.arch(), values);
             }
         }
     }
@@ -619,8 +619,9 @@ mod tests {
             }
             for kind in [Kind::Shear, Kind::Closing] {
                 let sizes = |run: &Outcome| {
-                    let floors = |own: Column| matches!(own.owner, Owner::Floor { .. });
-                    run.peaks.sizes(|own| own.kind == kind && !floors(own))
+                    let floors = |column: Column| matches!(column.owner, Owner::Floor { .. });
+                    run.peaks
+                        .sizes(|column| column.kind == kind && !floors(column))
                 };
                 for (a, b) in sizes(&together).into_iter().zip(sizes(&apart)) {
                     close(a, b, "shear or closing");

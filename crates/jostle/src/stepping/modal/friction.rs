@@ -24,23 +24,26 @@ impl ModalStepper<'_> {
         let place = self.reduced.friction[contact]?;
         let law = run.system.contacts[contact].friction.as_ref()?.law;
         let trial = &run.trials[place];
-        let own = &mut episode.friction;
-        let bend = self.predicted[place].bend(own.force, trial.force);
-        own.impulse += step * (0.5 * (own.force + trial.force) - bend / 6.0);
+        let friction = &mut episode.friction;
+        let bend = self.predicted[place].bend(friction.force, trial.force);
+        friction.impulse += step * (0.5 * (friction.force + trial.force) - bend / 6.0);
         // The buildings have moved on: what was is in the second list.
         let [then, before] =
             [&self.u[1], &self.rate[1]].map(|list| self.reduced.closing(place, list));
         let slip = Cubic::new(then, before, trial.indentation, trial.rate, step);
         for at in slip.turning_points().chain([1.0]) {
-            own.slip_peak = own.slip_peak.max((slip.value(at) - own.touched_at).abs());
+            friction.slip_peak = friction
+                .slip_peak
+                .max((slip.value(at) - friction.touched_at).abs());
         }
         let greatest = pressed.ends[0].max(pressed.ends[1]).max(pressed.peak.value);
         let mut path = self.friction_paths[place - run.phases.len()];
         path.ends[FRICTION_PARTS - 1] = trial.force;
-        own.peak
+        friction
+            .peak
             .widen(&[path], law.coefficient * greatest, [start, step]);
-        own.origin = law.origin(trial.indentation, trial.force);
-        own.force = trial.force;
+        friction.origin = law.origin(trial.indentation, trial.force);
+        friction.force = trial.force;
         Some(path)
     }
 

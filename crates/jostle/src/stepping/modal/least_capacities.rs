@@ -96,7 +96,7 @@ impl LeastCapacities {
         if shear_across == 0.0 && moment_across == 0.0 {
             return [shear.abs(), moment.abs()];
         }
-        let size = |own: f64, across: f64| (own * own + across * across).sqrt();
+        let size = |value: f64, across: f64| (value * value + across * across).sqrt();
         [
             size(shear, shear_across),
             size(moment, self.stretch * moment_across),
@@ -145,10 +145,10 @@ fn lines(rules: &[RuleCapacity]) -> impl Iterator<Item = &CapacityLine> {
         let across = rule.across.as_ref();
         let shear = rule.shear.iter();
         shear
-            .chain(across.and_then(|own| own.shear.as_ref()))
+            .chain(across.and_then(|capacity| capacity.shear.as_ref()))
             .flat_map(|shear| [&shear.steady, &shear.degrading])
             .chain(&rule.bending)
-            .chain(across.and_then(|own| own.bending.first()))
+            .chain(across.and_then(|capacity| capacity.bending.first()))
     })
 }
 

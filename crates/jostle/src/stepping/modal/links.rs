@@ -83,8 +83,8 @@ impl ModalLink {
         reduced: &Reduced,
         time: usize,
     ) -> [f64; 3] {
-        self.link.map_or([0.0; 3], |own| {
-            grounds.closing(reduced.unsplit_ports() + own, time)
+        self.link.map_or([0.0; 3], |link| {
+            grounds.closing(reduced.unsplit_ports() + link, time)
         })
     }
 
@@ -168,7 +168,7 @@ pub(in crate::stepping) fn longest_step(system: &System) -> f64 {
         let turning = (link.stiffness / mass).sqrt();
         (RADIANS_PER_STEP / turning).min(DECAYS_PER_STEP * mass / link.damping)
     };
-    let own = system.buildings.iter().flat_map(|building| {
+    let dashpot_steps = system.buildings.iter().flat_map(|building| {
         let mass = &building.equations.mass;
         own_dashpots(building).into_iter().map(move |(dofs, c)| {
             let masses = dofs.map(|dof| dof.map_or(f64::INFINITY, |dof| mass[dof]));
@@ -176,7 +176,7 @@ pub(in crate::stepping) fn longest_step(system: &System) -> f64 {
         })
     });
     let links = system.links.iter().map(of_link);
-    let coupled = links.chain(own);
+    let coupled = links.chain(dashpot_steps);
     coupled.fold(f64::INFINITY, |least, step| least.min(step).min(LONGEST))
 }
 
@@ -250,17 +250,17 @@ impl LinkTable {
     ) {
         let push = &reduced.links[index].push;
         let [by_force, by_bend] = &self.answers[index];
-        let own = within(&push.modes, first);
+        let within = within(&push.modes, first);
         for (list, (line, bent)) in [
             (q, (&by_force[0], &by_bend[0])),
             (v, (&by_force[1], &by_bend[1])),
         ] {
             let terms = line.iter().zip(bent);
-            for (value, (line, bent)) in list[own.clone()].iter_mut().zip(terms) {
+            for (value, (line, bent)) in list[within.clone()].iter_mut().zip(terms) {
                 *value += force * line + bend * bent;
             }
         }
-        let loads = p1[own.clone()].iter_mut().zip(&mut bends[own]);
+        let loads = p1[within.clone()].iter_mut().zip(&mut bends[within]);
         for ((p1, bends), load) in loads.zip(&push.loads) {
             *p1 += force * load;
             *bends += bend * load;
@@ -291,14 +291,14 @@ pub(super) fn closings(
     modes: &Range<usize>,
 ) -> [f64; 3] {
     let shared = overlap(&link.push.modes, modes);
-    let own = &link.push.loads[within(&shared, link.push.modes.start)];
+    let push_load = &link.push.loads[within(&shared, link.push.modes.start)];
     let at = within(&shared, modes.start);
     let mut sums = [0.0; 3];
     let factors = reduced.damping[shared.clone()]
         .iter()
         .zip(&reduced.stiffness[shared.clone()]);
     let motion = q[at.clone()].iter().zip(&v[at.clone()]);
-    for (i, ((shape, (d, k)), (q, v))) in own.iter().zip(factors).zip(motion).enumerate() {
+    for (i, ((shape, (d, k)), (q, v))) in push_load.iter().zip(factors).zip(motion).enumerate() {
         let p = load.map_or(0.0, |load| load[at.start + i]);
         sums[0] -= shape * q;
         sums[1] -= shape * v;
@@ -329,13 +329,13 @@ pub(super) struct LinkMotion {
 
 impl LinkMotion {
     pub(super) fn new(system: &System, reduced: &Reduced) -> Self {
-        let (all, own) = (reduced.links.len(), system.links.len());
+        let (all, count) = (reduced.links.len(), system.links.len());
         Self {
             bends: vec![0.0; all],
             right: Vec::with_capacity(2 * all),
             unknowns: Vec::with_capacity(2 * all),
-            totals: vec![LinkTotals::default(); own],
-            forces: vec![0.0; own],
+            totals: vec![LinkTotals::default(); count],
+            forces: vec![0.0; count],
             cubic: vec![[0.0; 3]; all],
             ..Self::default()
         }
@@ -346,7 +346,7 @@ impl LinkMotion {
         let most = |of: usize| {
             self.cubic
                 .iter()
-                .fold(0.0_f64, |most, own| most.max(own[of]))
+                .fold(0.0_f64, |most, cubic| most.max(cubic[of]))
         };
         let greatest = most(2);
         if greatest > 0.0 {
@@ -414,8 +414,8 @@ impl ModalStepper<'_> {
         for (index, link) in self.reduced.links.iter().enumerate() {
             let ends = [0, 1].map(|time| link.closing(&self.u[time]));
             let forces = [0, 1].map(|time| link.force(ends[time], link.closing(&self.rate[time])));
-            let moved = link.link.map_or_else(OverStep::default, |own| {
-                grounds.over_step(self.reduced.unsplit_ports() + own, step)
+            let moved = link.link.map_or_else(OverStep::default, |link| {
+                grounds.over_step(self.reduced.unsplit_ports() + link, step)
             });
             let closing = link.closing_of(&self.scratch, 0) + moved.area;
             let leaning = 2.0 * (link.closing_of(&self.moment, 0) + moved.moment) - closing;

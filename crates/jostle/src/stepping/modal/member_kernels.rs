@@ -369,10 +369,10 @@ impl ExactSteps<'_> {
         self.is_taken[instant] = true;
         let mut off = [0.0; ROWS];
         if !self.rows.missed.is_empty() {
-            let own = self.block * self.steps.modes..(self.block + 1) * self.steps.modes;
+            let range = self.block * self.steps.modes..(self.block + 1) * self.steps.modes;
             let accelerations = self.steps.list(instant, 2);
-            self.missed[instant] = sums(simd, &self.rows.missed[own.clone()], accelerations);
-            off = sums(simd, &self.rows.off[own], accelerations);
+            self.missed[instant] = sums(simd, &self.rows.missed[range.clone()], accelerations);
+            off = sums(simd, &self.rows.off[range], accelerations);
         }
         let value = self.value(instant);
         self.limits.take(&value);

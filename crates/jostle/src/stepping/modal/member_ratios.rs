@@ -131,24 +131,24 @@ impl ModalRatios {
             }
         }
         let forms = system.buildings.iter().zip(&reduced.buildings).enumerate();
-        let forms = forms.map(|(index, (building, own))| {
+        let forms = forms.map(|(index, (building, reduced_building))| {
             let count = if sections[index].is_empty() {
                 0
             } else {
                 building.members.forms.len()
             };
-            let row = |form| own.members.form_row(building, form);
+            let row = |form| reduced_building.members.form_row(building, form);
             (0..count).map(row).collect()
         });
         let worst = sections
             .iter()
             .zip(&reduced.buildings)
-            .map(|(sections, own)| {
+            .map(|(sections, building)| {
                 if sections.is_empty() {
                     return KeptState::default();
                 }
                 KeptState {
-                    modal: [(); 3].map(|()| vec![0.0; own.members.modes().len()]),
+                    modal: [(); 3].map(|()| vec![0.0; building.members.modes().len()]),
                     ground: 0.0,
                     pushes: vec![0.0; system.contacts.len()],
                 }
@@ -263,8 +263,11 @@ impl NullaryFnOnce for FollowSections<'_> {
                 for part in 1..PARTS {
                     let share = part as f64 / PARTS as f64;
                     let time = instant.time - (1.0 - share) * ends.step;
-                    let value = |curve: &Option<Cubic>| curve.as_ref().map(|own| own.value(share));
-                    let values = curves.each_ref().map(|own| value(own).unwrap_or_default());
+                    let value =
+                        |curve: &Option<Cubic>| curve.as_ref().map(|curve| curve.value(share));
+                    let values = curves
+                        .each_ref()
+                        .map(|curve| value(curve).unwrap_or_default());
                     take(time, in_order(values));
                 }
             }
@@ -404,8 +407,8 @@ impl MemberRows {
     /// A force as a sum over modal values.
     fn form_row(&self, building: &crate::system::BuildingSystem, form: usize) -> FormRow {
         let constant = building.members.forms[form].constant;
-        let own = self.own_row(form);
-        let (shares, ground, contacts, is_own) = match own {
+        let own_row = self.own_row(form);
+        let (shares, ground, contacts, is_own) = match own_row {
             Some([shapes, missed]) => ([shapes, Vec::new(), missed], [0.0; 2], Vec::new(), true),
             None => {
                 let (shares, ground, contacts) = self.passed_row(form);

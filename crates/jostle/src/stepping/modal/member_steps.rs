@@ -135,10 +135,11 @@ impl KeptSteps {
     /// Begins a batch at the end of the last step, as an instant of its own.
     fn begin_batch(&mut self, smooth: bool) {
         let last = self.count() - 1;
-        let own = |size: usize| last * size..(last + 1) * size;
-        self.modal.extend_from_within(own(LISTS * self.modes));
-        self.ground.extend_from_within(own(self.buildings));
-        self.pushes.extend_from_within(own(self.contacts));
+        let last_range = |size: usize| last * size..(last + 1) * size;
+        self.modal
+            .extend_from_within(last_range(LISTS * self.modes));
+        self.ground.extend_from_within(last_range(self.buildings));
+        self.pushes.extend_from_within(last_range(self.contacts));
         self.lengths.push(0.0);
         self.open(smooth);
     }
@@ -178,9 +179,10 @@ impl KeptSteps {
     ) {
         self.open_batch(smooth).steps += 1;
         self.lengths.push(length);
-        for own in &reduced.buildings {
+        for building in &reduced.buildings {
             for list in lists {
-                self.modal.extend_from_slice(&list[own.members.modes()]);
+                self.modal
+                    .extend_from_slice(&list[building.members.modes()]);
             }
         }
         let buildings = 0..self.buildings;
@@ -203,8 +205,8 @@ impl KeptSteps {
         }
         let last = (self.count() - 1) * LISTS * self.modes;
         let instant = &mut self.modal[last..];
-        for own in &reduced.buildings {
-            let modes = own.members.modes();
+        for building in &reduced.buildings {
+            let modes = building.members.modes();
             let count = modes.len();
             let to = &mut instant[LISTS * modes.start + count..LISTS * modes.end];
             for (to, list) in to.chunks_mut(count.max(1)).zip(jumped) {

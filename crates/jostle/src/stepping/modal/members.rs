@@ -77,9 +77,11 @@ impl PassedBounds {
         let (mut by_q, mut by_v, mut of_ground) = (Vec::new(), Vec::new(), [0.0; ROWS]);
         for (row, (shares, [fixed, _])) in rows.iter().zip(ground).enumerate() {
             let [q, v, a] = [0, 1, 2].map(|part| &shares[part * count..(part + 1) * count]);
-            let less = |own: &[f64], factors: &[f64]| -> Vec<f64> {
-                let lists = own.iter().zip(a).zip(factors);
-                lists.map(|((own, a), factor)| own - a * factor).collect()
+            let less = |values: &[f64], factors: &[f64]| -> Vec<f64> {
+                let lists = values.iter().zip(a).zip(factors);
+                lists
+                    .map(|((value, a), factor)| value - a * factor)
+                    .collect()
             };
             by_q.push(less(q, stiffness));
             by_v.push(less(v, damping));
@@ -121,7 +123,7 @@ impl MemberRows {
     ) -> Self {
         let forms = &building.members.forms;
         let count = modes.len();
-        let (mut own, passed): (Vec<usize>, Vec<usize>) =
+        let (mut followed, passed): (Vec<usize>, Vec<usize>) =
             (0..forms.len()).partition(|form| forms[*form].follows_displacements());
         let pick = |rows: Option<&[Vec<f64>]>, list: &[usize]| match rows {
             Some(rows) => {
@@ -141,7 +143,7 @@ impl MemberRows {
             kind_of[joint.section.forms[1]] = 1;
         }
         // Blocks of one kind, storey by storey: their rows come near their peaks together.
-        sort_by_key(&mut own, |form| kind_of[*form]);
+        sort_by_key(&mut followed, |form| kind_of[*form]);
         let dense = |row: &Row| basis.of_shapes(|shape| row.value(shape));
         let mut shares: Vec<Vec<f64>> = Vec::new();
         let mut ground = Vec::new();
@@ -172,15 +174,15 @@ impl MemberRows {
         let bounds = bounds.map(|(rows, ground)| PassedBounds::new(rows, ground, basis, damping));
         let padded = |start: usize, count: usize| start..start + count.div_ceil(ROWS) * ROWS;
         Self {
-            range: padded(starts[0], own.len()),
+            range: padded(starts[0], followed.len()),
             norms: norms_in_blocks(
-                own.iter().map(|form| &rows.shapes[*form]),
+                followed.iter().map(|form| &rows.shapes[*form]),
                 &basis.modes.stiffness,
             ),
-            kinds: own.iter().map(|form| kind_of[*form]).collect(),
-            shapes: pick(Some(rows.shapes), &own),
-            missed: pick(rows.missed, &own),
-            off: pick(rows.off, &own),
+            kinds: followed.iter().map(|form| kind_of[*form]).collect(),
+            shapes: pick(Some(rows.shapes), &followed),
+            missed: pick(rows.missed, &followed),
+            off: pick(rows.off, &followed),
             passed: Passed {
                 range: padded(starts[1], passed.len()),
                 bounds: bounds.collect(),
@@ -192,7 +194,7 @@ impl MemberRows {
                     .collect(),
                 forms: passed,
             },
-            forms: own,
+            forms: followed,
             modes,
         }
     }
@@ -207,8 +209,8 @@ impl MemberRows {
                 for (row, to) in to.iter_mut().enumerate() {
                     let mut sum = 0.0;
                     for (mode, inertia) in self.modes.clone().zip(inertia) {
-                        let own = mode.checked_sub(push.modes.start);
-                        let load = own.and_then(|own| push.loads.get(own));
+                        let place = mode.checked_sub(push.modes.start);
+                        let load = place.and_then(|place| push.loads.get(place));
                         sum += inertia[row] * load.unwrap_or(&0.0);
                     }
                     let contacts = passed.contacts.get(block * ROWS + row);
@@ -243,7 +245,7 @@ impl MemberRows {
     /// Shares of modal displacements in a force that displacements determine, and those of accelerations that shapes
     /// miss, if any; `None` for other forces.
     pub(super) fn own_row(&self, form: usize) -> Option<[Vec<f64>; 2]> {
-        let row = self.forms.iter().position(|own| *own == form)?;
+        let row = self.forms.iter().position(|candidate| *candidate == form)?;
         let list = |blocks: &[[f64; ROWS]]| -> Vec<f64> {
             let modes = 0..if blocks.is_empty() {
                 0
@@ -259,7 +261,7 @@ impl MemberRows {
     /// per rate of it, and the contacts that push there.
     pub(super) fn passed_row(&self, form: usize) -> ([Vec<f64>; 3], [f64; 2], Vec<usize>) {
         let passed = &self.passed;
-        let Some(row) = passed.forms.iter().position(|own| *own == form) else {
+        let Some(row) = passed.forms.iter().position(|candidate| *candidate == form) else {
             return Default::default();
         };
         let count = self.modes.len();
@@ -342,8 +344,8 @@ pub(super) const fn tests_look_always() -> bool {
 impl MemberPeaks {
     /// `None` where no forces are asked for.
     pub(super) fn new(system: &System, reduced: &Reduced, settings: Settings) -> Option<Self> {
-        let [own, passed] = reduced.buildings.last()?.members.ends();
-        if own + passed == 0 {
+        let [end, passed] = reduced.buildings.last()?.members.ends();
+        if end + passed == 0 {
             return None;
         }
         let sizes = || system.buildings.iter().map(|b| b.members.forms.len());
@@ -354,14 +356,16 @@ impl MemberPeaks {
                 wanted[*building][form] = true;
             }
         }
-        let buildings = || reduced.buildings.iter().map(|own| &own.members);
+        let buildings = || reduced.buildings.iter().map(|building| &building.members);
         Some(Self {
-            greatest: vec![[0.0; ROWS]; own / ROWS],
-            least: vec![[0.0; ROWS]; own / ROWS],
-            with_off: vec![[0.0; ROWS]; own / ROWS],
-            loose: vec![[0.0; ROWS]; own / ROWS],
+            greatest: vec![[0.0; ROWS]; end / ROWS],
+            least: vec![[0.0; ROWS]; end / ROWS],
+            with_off: vec![[0.0; ROWS]; end / ROWS],
+            loose: vec![[0.0; ROWS]; end / ROWS],
             accelerations: vec![0.0; reduced.modes()],
-            reach: buildings().map(|own| Reach::new(own.modes.len())).collect(),
+            reach: buildings()
+                .map(|building| Reach::new(building.modes.len()))
+                .collect(),
             passed_greatest: vec![[0.0; ROWS]; passed / ROWS],
             passed_least: vec![[0.0; ROWS]; passed / ROWS],
             drive: Drive::new(system.contacts.len()),
@@ -394,10 +398,10 @@ impl MemberPeaks {
         let length = (step, now.smooth && step > 0.0);
         self.kept
             .push(reduced, lists, now.ground, now.phases, length);
-        for (index, own) in reduced.buildings.iter().enumerate() {
-            let own = &own.members;
-            let stiffness = &reduced.stiffness[own.modes.clone()];
-            let steps = self.kept.last_step(index, &own.modes);
+        for (index, building) in reduced.buildings.iter().enumerate() {
+            let members = &building.members;
+            let stiffness = &reduced.stiffness[members.modes.clone()];
+            let steps = self.kept.last_step(index, &members.modes);
             let [then, now_of_building] =
                 [0, 1].map(|end| [0, 1, 2].map(|part| steps.list(end, part)));
             let reach = &mut self.reach[index];
@@ -422,10 +426,10 @@ impl MemberPeaks {
             self.look_at_kept(reduced);
         }
         self.kept.restart(reduced, jumped);
-        for (index, own) in reduced.buildings.iter().enumerate() {
-            let own = &own.members;
-            let [velocities, accelerations, _] = jumped.map(|list| &list[own.modes.clone()]);
-            let stiffness = &reduced.stiffness[own.modes.clone()];
+        for (index, building) in reduced.buildings.iter().enumerate() {
+            let members = &building.members;
+            let [velocities, accelerations, _] = jumped.map(|list| &list[members.modes.clone()]);
+            let stiffness = &reduced.stiffness[members.modes.clone()];
             let jumped = [velocities, accelerations];
             self.reach[index].restart(reduced.arch(), stiffness, jumped);
         }
@@ -436,12 +440,12 @@ impl MemberPeaks {
         if self.kept.is_empty() {
             return;
         }
-        for (index, own) in reduced.buildings.iter().enumerate() {
-            let own = &own.members;
-            if !own.missed.is_empty() {
-                let known = &mut self.accelerations[own.modes.clone()];
-                self.kept.raise_accelerations(&own.modes, known);
-                member_kernels::set_loose(own, known, &mut self.loose[own.blocks()]);
+        for (index, building) in reduced.buildings.iter().enumerate() {
+            let members = &building.members;
+            if !members.missed.is_empty() {
+                let known = &mut self.accelerations[members.modes.clone()];
+                self.kept.raise_accelerations(&members.modes, known);
+                member_kernels::set_loose(members, known, &mut self.loose[members.blocks()]);
             }
             // Next to great values others seldom count.
             let first = self.kept.farthest(index);
@@ -461,12 +465,12 @@ impl MemberPeaks {
     }
 
     fn look_at_batch(&mut self, reduced: &Reduced, index: usize, batch: usize) {
-        let own = &reduced.buildings[index].members;
-        let steps = self.kept.batch(batch, index, &own.modes);
+        let members = &reduced.buildings[index].members;
+        let steps = self.kept.batch(batch, index, &members.modes);
         let reach = self.kept.reach(batch, index);
-        let blocks = own.blocks();
+        let blocks = members.blocks();
         reduced.arch().dispatch(FollowOwn {
-            rows: own,
+            rows: members,
             reach,
             greatest: &mut self.greatest[blocks.clone()],
             least: &mut self.least[blocks.clone()],
@@ -474,7 +478,7 @@ impl MemberPeaks {
             loose: &self.loose[blocks],
             steps,
         });
-        let passed = &own.passed;
+        let passed = &members.passed;
         if passed.range.is_empty() {
             return;
         }
@@ -497,29 +501,29 @@ impl MemberPeaks {
             return;
         };
         for (index, building) in reduced.buildings.iter().enumerate() {
-            let own = &building.members;
-            let list = |list: &[f64], mode: usize| list[own.modes.start + mode];
+            let members = &building.members;
+            let list = |list: &[f64], mode: usize| list[members.modes.start + mode];
             let forms = &system.buildings[index].members.forms;
-            for (row, form) in own.forms.iter().enumerate() {
+            for (row, form) in members.forms.iter().enumerate() {
                 if !self.wanted[index][*form] {
                     continue;
                 }
                 let mut sum = forms[*form].constant;
-                for mode in 0..own.modes.len() {
-                    sum += own.value(&own.shapes, row, mode) * list(now.q, mode);
-                    if !own.missed.is_empty() {
-                        sum += own.value(&own.missed, row, mode) * list(now.a, mode);
+                for mode in 0..members.modes.len() {
+                    sum += members.value(&members.shapes, row, mode) * list(now.q, mode);
+                    if !members.missed.is_empty() {
+                        sum += members.value(&members.missed, row, mode) * list(now.a, mode);
                     }
                 }
                 self.row[index][*form] = sum;
             }
-            let passed = &own.passed;
+            let passed = &members.passed;
             for (row, form) in passed.forms.iter().enumerate() {
                 if !self.wanted[index][*form] {
                     continue;
                 }
                 let mut sum = passed.ground[row][0] * now.ground.of(index)[0];
-                let count = own.modes.len();
+                let count = members.modes.len();
                 for (part, modal) in [now.q, now.v, now.a].into_iter().enumerate() {
                     for mode in 0..count {
                         let block = row / ROWS * 3 * count + part * count + mode;
@@ -541,15 +545,15 @@ impl MemberPeaks {
         reduced: &Reduced,
     ) -> (Vec<Vec<[f64; 2]>>, Option<MemberHistory>, MemberRatios) {
         let mut all = Vec::with_capacity(system.buildings.len());
-        for (building, own) in system.buildings.iter().zip(&reduced.buildings) {
-            let own = &own.members;
+        for (building, reduced_building) in system.buildings.iter().zip(&reduced.buildings) {
+            let members = &reduced_building.members;
             let constants = building.members.forms.iter().map(|form| form.constant);
             let mut extremes: Vec<[f64; 2]> = constants.map(|constant| [constant; 2]).collect();
-            for (place, form) in own.range.clone().zip(&own.forms) {
+            for (place, form) in members.range.clone().zip(&members.forms) {
                 extremes[*form][0] += self.greatest.as_flattened()[place];
                 extremes[*form][1] += self.least.as_flattened()[place];
             }
-            for (place, form) in own.passed.range.clone().zip(&own.passed.forms) {
+            for (place, form) in members.passed.range.clone().zip(&members.passed.forms) {
                 extremes[*form][0] += self.passed_greatest.as_flattened()[place];
                 extremes[*form][1] += self.passed_least.as_flattened()[place];
             }
@@ -560,13 +564,13 @@ impl MemberPeaks {
     }
 
     /// Greatest size of every kind of force in a building.
-    fn scales(&self, own: &MemberRows) -> [f64; KINDS] {
+    fn scales(&self, rows: &MemberRows) -> [f64; KINDS] {
         let mut scales = [f64::MIN_POSITIVE; KINDS];
-        for (place, kind) in own.range.clone().zip(&own.kinds) {
+        for (place, kind) in rows.range.clone().zip(&rows.kinds) {
             let size = self.greatest.as_flattened()[place].max(-self.least.as_flattened()[place]);
             scales[*kind] = scales[*kind].max(size);
         }
-        for place in own.passed.range.clone() {
+        for place in rows.passed.range.clone() {
             let (greatest, least) = (
                 self.passed_greatest.as_flattened()[place],
                 self.passed_least.as_flattened()[place],
@@ -578,30 +582,33 @@ impl MemberPeaks {
 
     /// Estimated errors of the forces of a building relative to the greatest of their kind: by shapes that are left out,
     /// and, with the greatest errors of modes between the ends of free steps, by cubics there \[–\].
-    pub(super) fn errors(&self, own: &MemberRows, free: impl Fn(usize) -> f64) -> [f64; 2] {
-        let scales = self.scales(own);
-        let free: Vec<f64> = (0..own.modes.len()).map(free).collect();
+    pub(super) fn errors(&self, rows: &MemberRows, free: impl Fn(usize) -> f64) -> [f64; 2] {
+        let scales = self.scales(rows);
+        let free: Vec<f64> = (0..rows.modes.len()).map(free).collect();
         let (mut shapes, mut between) = (0.0_f64, 0.0_f64);
-        for (row, kind) in own.kinds.iter().enumerate() {
-            let place = own.range.start + row;
+        for (row, kind) in rows.kinds.iter().enumerate() {
+            let place = rows.range.start + row;
             let known = self.greatest.as_flattened()[place].max(-self.least.as_flattened()[place]);
             let off = (self.with_off.as_flattened()[place] - known).max(0.0);
             shapes = shapes.max(off / scales[*kind]);
             let squares = free.iter().enumerate();
-            let squares = squares.map(|(mode, q)| (own.value(&own.shapes, row, mode) * q).powi(2));
+            let squares =
+                squares.map(|(mode, q)| (rows.value(&rows.shapes, row, mode) * q).powi(2));
             between = between.max(squares.sum::<f64>().sqrt() / scales[*kind]);
         }
         [shapes, between]
     }
 
     /// The greatest share of a mode, per acceleration, in what the forces of a building may be off \[s²·m⁻¹·kg^−½\].
-    pub(super) fn off_by_mode(&self, own: &MemberRows, mode: usize) -> f64 {
-        if own.off.is_empty() {
+    pub(super) fn off_by_mode(&self, member_rows: &MemberRows, mode: usize) -> f64 {
+        if member_rows.off.is_empty() {
             return 0.0;
         }
-        let scales = self.scales(own);
-        let rows = own.kinds.iter().enumerate();
-        rows.map(|(row, kind)| (own.value(&own.off, row, mode) / scales[*kind]).abs())
-            .fold(0.0, f64::max)
+        let scales = self.scales(member_rows);
+        let rows = member_rows.kinds.iter().enumerate();
+        rows.map(|(row, kind)| {
+            (member_rows.value(&member_rows.off, row, mode) / scales[*kind]).abs()
+        })
+        .fold(0.0, f64::max)
     }
 }

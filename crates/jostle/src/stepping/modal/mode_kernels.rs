@@ -232,25 +232,25 @@ impl<const N: usize> WithSimd for Ahead<'_, N> {
             |x: S::f64s, y: S::f64s| simd.add_f64s(x, y),
         );
         let [out_q, out_v, out_a, out_j] = self.modal;
-        for (group, own) in self.lanes.iter().enumerate() {
+        for (group, lane) in self.lanes.iter().enumerate() {
             let first = group * LANES;
-            let registers = one::<S>(&own.stiffness).len();
+            let registers = one::<S>(&lane.stiffness).len();
             for r in 0..registers {
                 let factor = |list: &[f64; LANES]| one::<S>(list)[r];
                 let at = |list: &[f64]| S::as_simd_f64s(&list[first..first + LANES]).0[r];
                 let (mut q0, mut v0) = (at(self.start[0]), at(self.start[1]));
-                let (damping, stiffness) = (factor(&own.damping), factor(&own.stiffness));
+                let (damping, stiffness) = (factor(&lane.damping), factor(&lane.stiffness));
                 for (k, (ground, sums)) in self.ground.windows(2).zip(&mut *self.sums).enumerate() {
                     let two = |[a, b]: [&[f64; LANES]; 2], x, y| {
                         plus(times(factor(a), x), times(factor(b), y))
                     };
-                    let mut q1 = two(own.displacement.each_ref(), q0, v0);
-                    let mut v1 = two(own.velocity.each_ref(), q0, v0);
-                    let [aa, ab, bb] = own.damped.each_ref();
+                    let mut q1 = two(lane.displacement.each_ref(), q0, v0);
+                    let mut v1 = two(lane.velocity.each_ref(), q0, v0);
+                    let [aa, ab, bb] = lane.damped.each_ref();
                     let mut by_q = two([aa, ab], q0, v0);
                     let mut by_v = times(factor(bb), v0);
                     let mut pushed = simd.splat_f64s(0.0);
-                    for (axis, driven) in own.driven.iter().enumerate() {
+                    for (axis, driven) in lane.driven.iter().enumerate() {
                         let g0 = simd.splat_f64s(ground[0][axis]);
                         let g1 = simd.splat_f64s(ground[1][axis]);
                         q1 = plus(q1, two(driven.displacement.each_ref(), g0, g1));
@@ -270,7 +270,7 @@ impl<const N: usize> WithSimd for Ahead<'_, N> {
                         *place = plus(*place, value);
                     };
                     add(&mut sums.damped, plus(times(q0, by_q), times(v0, by_v)));
-                    for (axis, driven) in own.driven.iter().enumerate() {
+                    for (axis, driven) in lane.driven.iter().enumerate() {
                         add(&mut sums.area[axis], two(driven.area.each_ref(), q0, v0));
                         add(
                             &mut sums.moved[axis],
@@ -355,7 +355,7 @@ impl<const N: usize> WithSimd for Exceeds<'_, N> {
         let driven = self.driven.map(|list| own::<S>(list, count));
         let shares = self.moved.map(|list| own::<S>(list, count));
         let (drift, acceleration) = (own::<S>(drift, count), own::<S>(acceleration, count));
-        let [g0, g1] = self.ground.map(|own| own.map(|g| simd.splat_f64s(g)));
+        let [g0, g1] = self.ground.map(|ground| ground.map(|g| simd.splat_f64s(g)));
         let slope = self.ground_rate.map(|rate| simd.splat_f64s(rate));
         let beyond = simd.splat_f64s(self.beyond);
         let mut any = false;

@@ -96,8 +96,8 @@ fn sums_by_thirds<S: Simd>(simd: S, block: &[Rows], modal: &[f64]) -> Rows {
     let third = block.len() / 3;
     let [mut a, mut b, mut c] = [[0.0; ROWS]; 3];
     for (part, to) in [&mut a, &mut b, &mut c].into_iter().enumerate() {
-        let own = part * third..(part + 1) * third;
-        add_sums(simd, &block[own.clone()], &modal[own], to);
+        let range = part * third..(part + 1) * third;
+        add_sums(simd, &block[range.clone()], &modal[range], to);
     }
     let mut all = [0.0; ROWS];
     for (row, all) in all.iter_mut().enumerate() {

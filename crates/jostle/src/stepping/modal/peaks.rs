@@ -118,19 +118,22 @@ impl Peaks {
                 .collect(),
             corners: {
                 let all = system.buildings.iter().zip(&reduced.buildings);
-                all.map(|(building, own)| CornerPeaks::new(building, own))
+                all.map(|(building, reduced_building)| CornerPeaks::new(building, reduced_building))
                     .collect()
             },
             drifts: {
                 let all = system.buildings.iter().zip(&reduced.buildings);
-                let drifts = all.map(|(building, own)| {
+                let drifts = all.map(|(building, reduced_building)| {
                     PlanDrifts::new(building, |dof| {
                         let mut tracks = building.tracks.iter();
                         let track = tracks.position(|track| track.dof == building.offset + dof);
                         // Every floor has its tracks; the foot and a base that moves follow.
-                        let base = || own.place_of_base(building, building.offset + dof);
-                        let track = track.map(|at| own.watched.start + at);
-                        track.or_else(base).unwrap_or(own.watched.start)
+                        let base =
+                            || reduced_building.place_of_base(building, building.offset + dof);
+                        let track = track.map(|at| reduced_building.watched.start + at);
+                        track
+                            .or_else(base)
+                            .unwrap_or(reduced_building.watched.start)
                     })
                 });
                 drifts.collect()
@@ -146,7 +149,9 @@ impl Peaks {
                 true => Default::default(),
                 false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|ground| {
                     let directions = reduced.directions.iter();
-                    directions.map(|own| own.of_ground(ground)).collect()
+                    directions
+                        .map(|direction| direction.of_ground(ground))
+                        .collect()
                 }),
             },
             limits: Limits::none(system, reduced),
@@ -188,14 +193,16 @@ impl Peaks {
             }
         }
         let closings = self.closing.iter().enumerate();
-        all.extend(closings.map(|(contact, own)| (Column::closing(contact), (*own).into())));
+        all.extend(
+            closings.map(|(contact, closing)| (Column::closing(contact), (*closing).into())),
+        );
         all.into_iter().collect()
     }
 
     /// Why a row of the histories could not be kept.
     pub(super) fn history_fault(&self) -> Option<&str> {
         let members = self.members.as_ref();
-        let members = members.and_then(|own| own.history.as_ref()?.unstored());
+        let members = members.and_then(|member| member.history.as_ref()?.unstored());
         self.history
             .as_ref()
             .and_then(History::unstored)
@@ -345,12 +352,12 @@ impl Peaks {
         self.restart(reduced, moving);
         reduced.show_forces(q, &mut self.forces[0]);
         reduced.add_force_dashpots(moving[0], &mut self.forces[0]);
-        for (floors, (building, own)) in self
+        for (floors, (building, reduced_building)) in self
             .floors
             .iter_mut()
             .zip(system.buildings.iter().zip(&reduced.buildings))
         {
-            let tracks = building.tracks.iter().zip(own.watched.clone());
+            let tracks = building.tracks.iter().zip(reduced_building.watched.clone());
             for (peaks, (_, at)) in floors.iter_mut().zip(tracks) {
                 peaks.displacement_max.value = u[at].max(0.0);
                 peaks.displacement_min.value = u[at].min(0.0);
@@ -367,10 +374,10 @@ impl Peaks {
 
     fn are_forces_near_peaks(&self, reduced: &Reduced) -> bool {
         let mut buildings = self.floors.iter().zip(&reduced.buildings);
-        buildings.any(|(floors, own)| {
+        buildings.any(|(floors, reduced_building)| {
             let shears = floors.iter().map(|floor| floor.storey_shear);
             let moments = floors.iter().map(|floor| floor.overturning_moment);
-            let mut all = (own.forces.start..).zip(shears.chain(moments));
+            let mut all = (reduced_building.forces.start..).zip(shears.chain(moments));
             all.any(|(at, peak)| self.is_near(at, peak))
         })
     }
@@ -396,14 +403,14 @@ impl Peaks {
         reduced.show_forces(velocities, rate_now);
         reduced.add_force_dashpots(accelerations, rate_now);
         let step = time - self.before.time;
-        for (index, own) in reduced.buildings.iter().enumerate() {
+        for (index, building) in reduced.buildings.iter().enumerate() {
             let storeys = system.buildings[index].storeys.len();
             for storey in 0..storeys.min(self.floors[index].len()) {
                 let peaks = self.floors[index][storey];
                 let raised = [
-                    (own.forces.start + storey, peaks.storey_shear),
+                    (building.forces.start + storey, peaks.storey_shear),
                     (
-                        own.forces.start + storeys + storey,
+                        building.forces.start + storeys + storey,
                         peaks.overturning_moment,
                     ),
                 ]
@@ -416,7 +423,7 @@ impl Peaks {
                 let peaks = &mut self.floors[index][storey];
                 [peaks.storey_shear, peaks.overturning_moment] = raised;
             }
-            if own.is_damped_at_base(&system.buildings[index]) {
+            if building.is_damped_at_base(&system.buildings[index]) {
                 self.base_shear[index] = self.floors[index][0].storey_shear;
             }
         }
@@ -496,16 +503,16 @@ impl Peaks {
             ..
         } = *taken;
         for (index, building) in system.buildings.iter().enumerate() {
-            let own = &reduced.buildings[index];
-            let blocks = own.watched.start / ROWS..own.watched.end / ROWS;
+            let reduced_building = &reduced.buildings[index];
+            let blocks = reduced_building.watched.start / ROWS..reduced_building.watched.end / ROWS;
             if !self.seen[blocks].contains(&true) {
                 continue;
             }
             let ground = ground.map(|all| all.of(index));
             let ground_rate = [0, 1, 2].map(|axis| (ground[1][axis] - ground[0][axis]) / step);
             let foot = |of: Watched<'_>| {
-                own.foot.map_or([0.0; 2], |foot| {
-                    let at = own.watched.start + foot;
+                reduced_building.foot.map_or([0.0; 2], |foot| {
+                    let at = reduced_building.watched.start + foot;
                     [of.u[at], of.rate[at]]
                 })
             };
@@ -513,13 +520,13 @@ impl Peaks {
                 then: foot(then),
                 now: foot(now),
             };
-            for (at, floor) in (own.watched.start..).zip(&building.tracks) {
-                let place = at - own.watched.start;
+            for (at, floor) in (reduced_building.watched.start..).zip(&building.tracks) {
+                let place = at - reduced_building.watched.start;
                 let slope = self.slope(at, floor.direction, ground_rate);
                 let peaks = &mut self.floors[index][place];
                 if floor.is_lowest && floor.direction != Direction::Along {
                     let base = building.dof_below_lowest(floor.direction);
-                    let base = base.and_then(|dof| own.place_of_base(building, dof));
+                    let base = base.and_then(|dof| reduced_building.place_of_base(building, dof));
                     let of =
                         |list: Watched<'_>| base.map_or([0.0; 2], |at| [list.u[at], list.rate[at]]);
                     below = Ends {
@@ -566,7 +573,7 @@ impl Peaks {
                         peaks.total_acceleration,
                     );
                 }
-                if at > own.watched.start || own.foot.is_none() {
+                if at > reduced_building.watched.start || reduced_building.foot.is_none() {
                     self.limits.high[at] = peaks.displacement_max.value;
                     self.limits.low[at] = peaks.displacement_min.value;
                 }
@@ -577,7 +584,7 @@ impl Peaks {
                     self.limits.drift[at] = (1.0 - 1e-12) * widest;
                 }
             }
-            for &[floor, at] in &own.rising {
+            for &[floor, at] in &reduced_building.rising {
                 let ends = Ends {
                     then: [then.u[at], then.rate[at]],
                     now: [now.u[at], now.rate[at]],
@@ -585,12 +592,12 @@ impl Peaks {
                 let greatest = &mut self.floors[index][floor].vertical_displacement;
                 ends.widen(greatest, step);
             }
-            let shear = own.shear;
+            let shear = reduced_building.shear;
             let shears = Ends {
                 then: [then.u[shear], then.rate[shear]],
                 now: [now.u[shear], now.rate[shear]],
             };
-            if !own.is_damped_at_base(building) {
+            if !reduced_building.is_damped_at_base(building) {
                 shears.widen(&mut self.base_shear[index], step);
             }
             self.limits.high[shear] = self.base_shear[index];
@@ -637,11 +644,17 @@ impl Peaks {
         if !reduced.across.is_empty() {
             put(ground.common[1]);
         }
-        for (index, (building, own)) in system.buildings.iter().zip(&reduced.buildings).enumerate()
+        for (index, (building, reduced_building)) in
+            system.buildings.iter().zip(&reduced.buildings).enumerate()
         {
             let ground = ground.of(index);
-            for (floor, track) in building.tracks.iter().enumerate().take(own.floors) {
-                let at = own.watched.start + floor;
+            for (floor, track) in building
+                .tracks
+                .iter()
+                .enumerate()
+                .take(reduced_building.floors)
+            {
+                let at = reduced_building.watched.start + floor;
                 put(watched.u[at]);
                 put(watched.rate[at]);
                 put(watched.acceleration[at] + track.direction.of_ground(ground));
@@ -659,9 +672,9 @@ impl Peaks {
         links.iter().for_each(|force| put(*force));
         for followed in &system.links_followed {
             let mut links = reduced.links.iter();
-            let own = links.find(|own| own.link == Some(*followed));
-            let [stroke, speed] = own.map_or([0.0; 2], |own| {
-                [own.closing(watched.u), own.closing(watched.rate)]
+            let link = links.find(|link| link.link == Some(*followed));
+            let [stroke, speed] = link.map_or([0.0; 2], |link| {
+                [link.closing(watched.u), link.closing(watched.rate)]
             });
             put(stroke);
             put(speed);
@@ -700,7 +713,7 @@ impl Limits {
             drift: vec![f64::INFINITY; watched],
             acceleration: vec![f64::INFINITY; watched],
         };
-        for (building, own) in reduced.buildings.iter().zip(&system.buildings) {
+        for (building, building_system) in reduced.buildings.iter().zip(&system.buildings) {
             let first = building.watched.start;
             for at in first..first + building.floors {
                 (limits.high[at], limits.low[at]) = (0.0, 0.0);
@@ -708,7 +721,7 @@ impl Limits {
             }
             // In every direction.
             for (at, _) in (first..)
-                .zip(&own.tracks)
+                .zip(&building_system.tracks)
                 .filter(|(_, track)| track.is_lowest || !track.is_in_line)
             {
                 limits.drift[at] = f64::INFINITY;

@@ -89,8 +89,8 @@ impl PlanEquations {
         for end in self.ends.drain(..) {
             self.row_of[end] = NONE;
         }
-        for own in closed {
-            for end in plan.shares[own.contact].dofs() {
+        for closed_contact in closed {
+            for end in plan.shares[closed_contact.contact].dofs() {
                 if self.row_of[end] == NONE {
                     self.row_of[end] = 0;
                     self.ends.push(end);
@@ -103,8 +103,8 @@ impl PlanEquations {
             self.row_of[end] = row;
         }
         self.points.clear();
-        self.points.extend(closed.iter().map(|own| {
-            let ends = plan.shares[own.contact].entries().iter();
+        self.points.extend(closed.iter().map(|closed_contact| {
+            let ends = plan.shares[closed_contact.contact].entries().iter();
             ends.map(|(end, share)| (self.row_of[*end], *share))
                 .collect()
         }));
@@ -218,8 +218,8 @@ impl PlanEquations {
         let n = self.ends.len();
         self.forces.clear();
         self.forces.resize(n, 0.0);
-        for (point, own) in self.points.iter().zip(&*closed) {
-            point.push(predicted(own.contact), &mut self.forces);
+        for (point, closed_contact) in self.points.iter().zip(&*closed) {
+            point.push(predicted(closed_contact.contact), &mut self.forces);
         }
         self.list_partners(closed);
         let mut last = f64::INFINITY;
@@ -269,17 +269,18 @@ impl PlanEquations {
                 rows: [row, NONE, NONE, NONE],
                 slopes: [[0.0; 2]; PARTNERS],
             }));
-        for (point, own) in self.points.iter().zip(closed) {
+        for (point, closed_contact) in self.points.iter().zip(closed) {
             if let [(first, _), (last, _)] = *point.entries() {
                 self.slopes[first].rows[1] = last;
                 self.slopes[last].rows[1] = first;
             }
-            if let Some(friction) = own.friction {
+            if let Some(friction) = closed_contact.friction {
                 for end in self.points[friction.normal].dofs() {
                     for row in point.dofs() {
                         let pressing = &mut self.slopes[row].rows[2..];
                         if !pressing.contains(&end)
-                            && let Some(free) = pressing.iter_mut().find(|own| **own == NONE)
+                            && let Some(free) =
+                                pressing.iter_mut().find(|pressing| **pressing == NONE)
                         {
                             *free = end;
                         }
@@ -293,25 +294,27 @@ impl PlanEquations {
     fn evaluate(&mut self, closed: &[Closed], widths: &[f64]) {
         self.change.clear();
         self.change.extend(self.forces.iter().map(|force| -force));
-        for own in &mut self.slopes {
-            own.slopes = [[0.0; 2]; PARTNERS];
+        for slope in &mut self.slopes {
+            slope.slopes = [[0.0; 2]; PARTNERS];
         }
         self.responses.clear();
         let [closings, rates] = &self.pressed;
-        for (point, own) in self.points.iter().zip(closed) {
+        for (point, closed_contact) in self.points.iter().zip(closed) {
             let (closing, rate) = (point.value(closings), point.value(rates));
-            let response = match &own.friction {
+            let response = match &closed_contact.friction {
                 Some(friction) => friction.respond(closing, self.responses[friction.normal].force),
                 None => {
-                    let width = widths[own.contact];
-                    own.law.follow(closing - width, rate, &own.memory)
+                    let width = widths[closed_contact.contact];
+                    closed_contact
+                        .law
+                        .follow(closing - width, rate, &closed_contact.memory)
                 }
             };
             self.responses.push(response);
             point.push(response.force, &mut self.change);
             let slopes = [response.by_indentation, response.by_rate];
             add_own_slopes(&mut self.slopes, point, slopes);
-            if let Some(friction) = &own.friction
+            if let Some(friction) = &closed_contact.friction
                 && response.by_indentation == 0.0
                 && self.responses[friction.normal].force > 0.0
             {
@@ -334,11 +337,11 @@ impl PlanEquations {
     fn assemble(&mut self) {
         let [openings, rates] = &self.openings;
         self.matrix.reset_like(openings);
-        for (row, own) in self.slopes.iter().enumerate() {
+        for (row, slope) in self.slopes.iter().enumerate() {
             let columns = openings.columns(row);
             let entries = self.matrix.row_mut(row, columns.clone());
             entries[row - columns.start] = 1.0;
-            for (partner, [by_closing, by_rate]) in own.rows.into_iter().zip(own.slopes) {
+            for (partner, [by_closing, by_rate]) in slope.rows.into_iter().zip(slope.slopes) {
                 if partner == NONE || (by_closing == 0.0 && by_rate == 0.0) {
                     continue;
                 }
@@ -358,14 +361,15 @@ impl PlanEquations {
     fn finish(&mut self, closed: &mut [Closed]) {
         std::mem::swap(&mut self.pressed, &mut self.before);
         self.press_ends();
-        for (place, own) in closed.iter_mut().enumerate() {
+        for (place, closed_contact) in closed.iter_mut().enumerate() {
             let point = &self.points[place];
             let [moved, rate] = [0, 1].map(|list: usize| {
                 point.value(&self.pressed[list]) - point.value(&self.before[list])
             });
             let response = &self.responses[place];
-            own.force = response.force + response.by_indentation * moved + response.by_rate * rate;
-            own.indentation = point.value(&self.pressed[0]);
+            closed_contact.force =
+                response.force + response.by_indentation * moved + response.by_rate * rate;
+            closed_contact.indentation = point.value(&self.pressed[0]);
         }
         for place in 0..closed.len() {
             let Some(friction) = closed[place].friction else {
@@ -385,15 +389,15 @@ impl PlanEquations {
         let [first, second] = openings;
         first.reset(reduced.graph.first_coupled(places));
         second.reset_like(first);
-        for (own, list) in self.openings.iter().zip([first, second]) {
+        for (opening, list) in self.openings.iter().zip([first, second]) {
             for row in 0..self.points.len() {
                 for column in list.columns(row) {
                     let (to, from) = (&self.points[row], &self.points[column]);
                     let mut sum = 0.0;
                     for &(end, share) in to.entries() {
                         for &(start, part) in from.entries() {
-                            if own.columns(end).contains(&start) {
-                                sum += share * part * own.get(end, start);
+                            if opening.columns(end).contains(&start) {
+                                sum += share * part * opening.get(end, start);
                             }
                         }
                     }
@@ -415,8 +419,8 @@ impl PlanEquations {
     ) {
         self.forces.fill(0.0);
         self.forces.resize(self.ends.len(), 0.0);
-        for (point, own) in self.points.iter().zip(closed) {
-            point.push(own.force, &mut self.forces);
+        for (point, closed_contact) in self.points.iter().zip(closed) {
+            point.push(closed_contact.force, &mut self.forces);
         }
         self.loads.clear();
         self.loads.resize(reduced.modes(), 0.0);
@@ -597,28 +601,31 @@ impl NullaryFnOnce for CoupleEnds<'_> {
                 let first = from;
                 for side in &sides[*end] {
                     let n = side.modes.len();
-                    let (own, padding) = answers[from..from + side.loads.len()].split_at_mut(n);
+                    let (entries, padding) = answers[from..from + side.loads.len()].split_at_mut(n);
                     let (line, bend) = (&line[side.modes.clone()], &bend[side.modes.clone()]);
                     let (line, bend, loads) = (&line[..n], &bend[..n], &side.loads[..n]);
                     for mode in 0..n {
-                        own[mode] = (line[mode] + bend[mode]) * loads[mode];
+                        entries[mode] = (line[mode] + bend[mode]) * loads[mode];
                     }
                     padding.fill(0.0);
                     from += side.loads.len();
                 }
                 for column in openings.columns(row).start..=row {
-                    let (own, other) = (&sides[*end], &sides[ends[column]]);
-                    let mut buildings = own.iter().zip(other);
-                    let alike = own.len() == other.len()
-                        && buildings.all(|(own, other)| own.building == other.building);
+                    let (one, other) = (&sides[*end], &sides[ends[column]]);
+                    let mut buildings = one.iter().zip(other);
+                    let alike = one.len() == other.len()
+                        && buildings.all(|(candidate, other)| candidate.building == other.building);
                     let sum = if alike {
                         simd::dot(&answers[first..from], &joined[ends[column]])
                     } else {
                         let (mut sum, mut at) = (0.0, first);
-                        for own in own {
-                            let answer = &answers[at..at + own.loads.len()];
-                            at += own.loads.len();
-                            for other in other.iter().filter(|side| side.building == own.building) {
+                        for side_loads in one {
+                            let answer = &answers[at..at + side_loads.loads.len()];
+                            at += side_loads.loads.len();
+                            for other in other
+                                .iter()
+                                .filter(|side| side.building == side_loads.building)
+                            {
                                 sum += simd::dot(answer, &other.loads);
                             }
                         }

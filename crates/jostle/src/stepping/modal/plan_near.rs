@@ -32,7 +32,7 @@ pub(super) struct PlanNear {
 impl PlanNear {
     pub(super) fn new(plan: &PlanRows, contacts: &[Contact], tolerance: f64) -> Self {
         let rows = plan.end - plan.first;
-        let mut own = Self {
+        let mut plan_near = Self {
             first: plan.first,
             contacts: vec![None; rows],
             near: vec![f64::INFINITY; rows],
@@ -45,11 +45,11 @@ impl PlanNear {
         };
         for (index, contact) in contacts.iter().enumerate() {
             let row = plan.place(index);
-            own.contacts[row] = Some(index);
-            own.widths[row] = contact.width;
-            own.set_greatest(row, Extreme::default().value);
+            plan_near.contacts[row] = Some(index);
+            plan_near.widths[row] = contact.width;
+            plan_near.set_greatest(row, Extreme::default().value);
         }
-        own
+        plan_near
     }
 
     fn set_greatest(&mut self, row: usize, closing: f64) {

@@ -137,10 +137,12 @@ impl PlanRow {
     /// Modal loads of a unit force that closes nothing but this row.
     fn sides(&self, reduced: &Reduced) -> Vec<SideLoads> {
         let mut sides: Vec<SideLoads> = Vec::new();
-        for (building, own) in reduced.buildings.iter().enumerate() {
+        for (building, reduced_building) in reduced.buildings.iter().enumerate() {
             let terms = self.places.iter().zip(&self.weights);
             let own_terms: Vec<(usize, f64)> = terms
-                .filter(|(place, weight)| own.watched.contains(place) && **weight != 0.0)
+                .filter(|(place, weight)| {
+                    reduced_building.watched.contains(place) && **weight != 0.0
+                })
                 .map(|(place, weight)| (*place, *weight))
                 .collect();
             if own_terms.is_empty() {
@@ -149,15 +151,20 @@ impl PlanRow {
             let load = |mode: usize| {
                 let shapes = own_terms.iter();
                 let sum = shapes.map(|(place, weight)| {
-                    weight * own.of_blocks(&own.blocks, place - own.watched.start, mode)
+                    weight
+                        * reduced_building.of_blocks(
+                            &reduced_building.blocks,
+                            place - reduced_building.watched.start,
+                            mode,
+                        )
                 });
                 -sum.sum::<f64>()
             };
             sides.push(SideLoads {
                 building,
-                modes: own.modes.clone(),
+                modes: reduced_building.modes.clone(),
                 loads: {
-                    let mut loads: Vec<f64> = (0..own.modes.len()).map(load).collect();
+                    let mut loads: Vec<f64> = (0..reduced_building.modes.len()).map(load).collect();
                     loads.resize(loads.len().next_multiple_of(LANES), 0.0);
                     loads
                 },
@@ -183,7 +190,7 @@ pub(super) fn are_rows_of_floors(system: &System) -> bool {
         && system
             .buildings
             .iter()
-            .all(|own| own_dashpots(own).is_empty())
+            .all(|building| own_dashpots(building).is_empty())
         && all_ports(system).all(|ports| PlanRow::new(system, ports, |_| 0).is_some())
 }
 
@@ -296,13 +303,15 @@ impl RowTable {
     fn add_strip(&mut self, rows: &[PlanRow], from: [usize; TERMS], floors: &[Vec<usize>]) {
         let points = floors[0].len();
         let weight = |row: usize, term: usize| rows[row].weights[term];
-        let by_point = || (0..points).flat_map(|point| floors.iter().map(move |own| own[point]));
+        let by_point =
+            || (0..points).flat_map(|point| floors.iter().map(move |floor| floor[point]));
         self.strips.push(RowStrip {
             first: self.order.len(),
             floors: floors.len(),
             points,
             from,
-            moved: [0, 1, 3, 4].map(|term| floors.iter().map(|own| weight(own[0], term)).collect()),
+            moved: [0, 1, 3, 4]
+                .map(|term| floors.iter().map(|floor| weight(floor[0], term)).collect()),
             turned: [2, 5].map(|term| by_point().map(|row| weight(row, term)).collect()),
         });
         self.order.extend(by_point());
@@ -459,9 +468,9 @@ mod tests {
     fn rows(floors: usize) -> Vec<PlanRow> {
         let value = |seed: usize| (1.7 * seed as f64).sin();
         let place = |floor: usize| {
-            let own = [0, 1, 2].map(|block| block * floors + floor);
-            let next = own.map(|place| place + 3 * floors);
-            [own[0], own[1], own[2], next[0], next[1], next[2]]
+            let places = [0, 1, 2].map(|block| block * floors + floor);
+            let next = places.map(|place| place + 3 * floors);
+            [places[0], places[1], places[2], next[0], next[1], next[2]]
         };
         let row = |floor: usize, point: usize, number: usize| {
             let mut weights = std::array::from_fn(|term| value(7 * floor + term + 50 * number));

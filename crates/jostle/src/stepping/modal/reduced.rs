@@ -110,7 +110,7 @@ impl ReducedBuilding {
     /// Place among all that is watched of a displacement of the base of a building in plan, which follow its floors and its foot.
     pub(super) fn place_of_base(&self, building: &BuildingSystem, dof: usize) -> Option<usize> {
         let mut base = building.plan_base.iter();
-        let at = base.position(|own| *own == dof)?;
+        let at = base.position(|base| *base == dof)?;
         Some(self.watched.start + self.floors + usize::from(self.foot.is_some()) + at)
     }
 
@@ -206,16 +206,16 @@ impl Reduced {
         work: &mut Work,
     ) -> Result<Self, (usize, NotPositive)> {
         let mut bases = Vec::with_capacity(lacking.len());
-        for (index, (own, modes)) in self.buildings.iter().zip(lacking).enumerate() {
+        for (index, (reduced_building, modes)) in self.buildings.iter().zip(lacking).enumerate() {
             if modes.is_empty() {
-                bases.push(Arc::clone(&own.basis));
+                bases.push(Arc::clone(&reduced_building.basis));
                 continue;
             }
             let building = &system.buildings[index];
             let basis = if all {
                 Basis::complete(building)
             } else {
-                own.basis.enriched(building, modes)
+                reduced_building.basis.enriched(building, modes)
             };
             let basis = basis.map_err(|failure| (index, failure))?;
             work.factorizations += basis.factorizations;
@@ -272,13 +272,14 @@ impl Reduced {
         reduced.unit_forces = (0..reduced.ports.len())
             .map(|contact| UnitForce::new(&reduced, contact))
             .collect();
-        for own in &mut reduced.buildings {
-            own.members.set_pushes(&reduced.unit_forces);
+        for building in &mut reduced.buildings {
+            building.members.set_pushes(&reduced.unit_forces);
         }
         let ports = system.contact_ports();
-        let groups = (0..reduced.buildings.len()).map(|own| reduced.linked_with(own).start);
+        let groups =
+            (0..reduced.buildings.len()).map(|building| reduced.linked_with(building).start);
         let groups: Vec<usize> = groups.collect();
-        reduced.graph = InterfaceGraph::new(ports, groups.len(), |own| groups[own]);
+        reduced.graph = InterfaceGraph::new(ports, groups.len(), |building| groups[building]);
         Ok(reduced)
     }
 
@@ -286,7 +287,7 @@ impl Reduced {
         let shown = |building: usize, row: Row| {
             let MonitoredPoints { places, .. } =
                 MonitoredPoints::new(system, building, self.vertical);
-            let place = places.iter().position(|own| *own == row)?;
+            let place = places.iter().position(|place| *place == row)?;
             Some(Shown {
                 building,
                 watched: self.buildings[building].watched.start + place,
@@ -317,9 +318,9 @@ impl Reduced {
         loop {
             let before = group.clone();
             for link in &self.links {
-                if link.buildings().any(|own| group.contains(&own)) {
-                    for own in link.buildings() {
-                        group = group.start.min(own)..group.end.max(own + 1);
+                if link.buildings().any(|building| group.contains(&building)) {
+                    for building in link.buildings() {
+                        group = group.start.min(building)..group.end.max(building + 1);
                     }
                 }
             }
@@ -483,8 +484,8 @@ impl Reduced {
     pub(super) fn add_ground_loads(&self, building: usize, ground: Ground, loads: &mut [f64]) {
         let modes = self.buildings[building].modes.clone();
         for (participations, component) in self.participations().into_iter().zip(ground) {
-            let own = participations.get(modes.clone()).unwrap_or_default();
-            for (load, participation) in loads.iter_mut().zip(own) {
+            let factors = participations.get(modes.clone()).unwrap_or_default();
+            for (load, participation) in loads.iter_mut().zip(factors) {
                 *load -= participation * component;
             }
         }
@@ -513,7 +514,7 @@ impl Reduced {
     fn driven_by(&self, modes: Range<usize>, list: &[f64]) -> Ground {
         self.participations()
             .map(|participations| match participations.get(modes.clone()) {
-                Some(own) => simd::dot(own, &list[modes.clone()]),
+                Some(participation) => simd::dot(participation, &list[modes.clone()]),
                 None => 0.0,
             })
     }
@@ -564,8 +565,8 @@ impl Reduced {
     /// modal accelerations.
     pub(super) fn add_force_dashpots(&self, modal: &[f64], forces: &mut [f64]) {
         for building in &self.buildings {
-            let own = &mut forces[building.forces.clone()];
-            for (force, row) in own.iter_mut().zip(&building.force_dashpots) {
+            let building_forces = &mut forces[building.forces.clone()];
+            for (force, row) in building_forces.iter_mut().zip(&building.force_dashpots) {
                 *force += simd::dot(row, &modal[building.modes.clone()]);
             }
         }
@@ -610,14 +611,14 @@ impl Reduced {
             return;
         };
         let [first, second] = watched;
-        let own = |range: &Range<usize>, start: usize| range.start - start..range.end - start;
+        let relative = |range: &Range<usize>, start: usize| range.start - start..range.end - start;
         for building in buildings {
-            let modes = own(&building.modes, start.modes.start);
-            let own = own(&building.watched, start.watched.start);
+            let modes = relative(&building.modes, start.modes.start);
+            let places = relative(&building.watched, start.watched.start);
             self.arch.dispatch(Show {
                 blocks: &building.blocks,
                 modal: modal.map(|list| &list[modes.clone()]),
-                watched: [&mut first[own.clone()], &mut second[own]],
+                watched: [&mut first[places.clone()], &mut second[places]],
             });
         }
     }
@@ -687,9 +688,9 @@ impl Reduced {
 
     /// Shape of one of its building's modes at a face \[kg^−½\].
     pub(super) fn shape(&self, port: Shown, mode: usize) -> f64 {
-        let own = &self.buildings[port.building];
-        let place = port.watched - own.watched.start;
-        own.blocks[place / ROWS * own.modes.len() + mode][place % ROWS]
+        let building = &self.buildings[port.building];
+        let place = port.watched - building.watched.start;
+        building.blocks[place / ROWS * building.modes.len() + mode][place % ROWS]
     }
 
     /// Adds the modal loads of a contact force.
@@ -707,8 +708,8 @@ impl Reduced {
         full.fill(0.0);
         let mut offset = 0;
         for building in &self.buildings {
-            let own = &mut full[offset..offset + building.size];
-            building.basis.expand(&modal[building.modes.clone()], own);
+            let full = &mut full[offset..offset + building.size];
+            building.basis.expand(&modal[building.modes.clone()], full);
             offset += building.size;
         }
     }

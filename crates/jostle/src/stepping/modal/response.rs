@@ -65,10 +65,10 @@ impl Response {
             ];
         }
         if inside > 0.0 {
-            let own = inside.sqrt();
-            let (sin, cos) = libm::sincos(own * step);
+            let inside = inside.sqrt();
+            let (sin, cos) = libm::sincos(inside * step);
             let decay = libm::exp(-half * step);
-            let s = sin / own;
+            let s = sin / inside;
             return [
                 [decay * (cos + half * s), decay * s],
                 [-decay * stiffness * s, decay * (cos - half * s)],

@@ -172,11 +172,11 @@ fn frames_in_plan(at: f64, storeys: usize) -> Tiers {
 /// A grid of columns and beams, one column stiffer than the others.
 fn frame_in_space(at: f64, storeys: usize, axial: bool) -> Tiers {
     let section = |size: [f64; 2]| {
-        let mut own = SpaceSection::rectangle(size, 30e9, 0.2, true).expect("a section");
+        let mut rectangle = SpaceSection::rectangle(size, 30e9, 0.2, true).expect("a section");
         if !axial {
-            own.axial_rigidity = None;
+            rectangle.axial_rigidity = None;
         }
-        own
+        rectangle
     };
     let beam = |size: [f64; 2]| SpaceSection::beam(size, 30e9, 0.2, true).expect("a section");
     let (lines_x, lines_y) = (vec![0.0, 6.0, 11.0], vec![0.0, 9.0]);
@@ -271,8 +271,8 @@ fn compare(models: &[Model]) {
         let often = run(model, false);
         MEMORY_IN_TESTS.set(MEMORY);
         for found in [&seldom, &often] {
-            for (of_always, own) in always.members.iter().zip(&found.members) {
-                for (form, (due, found)) in of_always.iter().zip(own).enumerate() {
+            for (of_always, member) in always.members.iter().zip(&found.members) {
+                for (form, (due, found)) in of_always.iter().zip(member).enumerate() {
                     assert_eq!(due, found, "model {index}, force {form}");
                 }
             }

@@ -22,14 +22,17 @@ impl ModalStepper<'_> {
     /// Takes displacements and velocities of masses: q = φᵀ M u, q̇ = φᵀ M u̇. Massless degrees of freedom follow statically. The
     /// energy of the state counts as input.
     pub(super) fn begin_from(&mut self, run: &RunState<'_>, state: &State) {
-        for (building, own) in run.system.buildings.iter().zip(&self.reduced.buildings) {
+        for (building, reduced_building) in run.system.buildings.iter().zip(&self.reduced.buildings)
+        {
             let lists = [&state.displacement, &state.velocity];
             for (list, modal) in lists.into_iter().zip([&mut self.q[0], &mut self.v[0]]) {
                 let motion = &list[building.range()];
                 let momenta = building.equations.mass.iter().zip(motion);
                 let momenta: Vec<f64> = momenta.map(|(mass, value)| mass * value).collect();
-                let parts = own.basis.of_shapes(|shape| simd::dot(&momenta, shape));
-                modal[own.modes.clone()].copy_from_slice(&parts);
+                let parts = reduced_building
+                    .basis
+                    .of_shapes(|shape| simd::dot(&momenta, shape));
+                modal[reduced_building.modes.clone()].copy_from_slice(&parts);
             }
         }
         self.reduced.show_all(

@@ -66,12 +66,12 @@ impl StepMotion<'_> {
         (floor, direction): (usize, Direction),
         tau: f64,
     ) -> [f64; 2] {
-        let own = &reduced.buildings[building];
+        let reduced_building = &reduced.buildings[building];
         let grounds = self.ground.map(|all| all.of(building));
         let [g0, g1] = grounds.map(|ground| direction.of_ground(ground));
         let mut sums = [g0 + (g1 - g0) * tau, (g1 - g0) / self.step];
-        for first in own.modes.clone().step_by(LANES) {
-            let modes = first..(first + LANES).min(own.modes.end);
+        for first in reduced_building.modes.clone().step_by(LANES) {
+            let modes = first..(first + LANES).min(reduced_building.modes.end);
             let (damping, stiffness) = (
                 &reduced.damping[modes.clone()],
                 &reduced.stiffness[modes.clone()],
@@ -95,7 +95,11 @@ impl StepMotion<'_> {
                 let (d, k) = (damping[lane], stiffness[lane]);
                 let a = end - d * v - k * q;
                 let jerk = rate - d * a - k * v;
-                let shape = own.of_blocks(&own.blocks, floor, mode - own.modes.start);
+                let shape = reduced_building.of_blocks(
+                    &reduced_building.blocks,
+                    floor,
+                    mode - reduced_building.modes.start,
+                );
                 sums[0] += shape * a;
                 sums[1] += shape * jerk;
             }

@@ -42,8 +42,8 @@ impl UnitForce {
         let first = sides().min().unwrap_or(0);
         let mut force = Self::over(reduced, first..sides().max().map_or(first, |last| last + 1));
         for (share, side) in plan.sides_of(contact) {
-            let own = &mut force.loads[side.modes.start - force.modes.start..];
-            simd::add(&mut own[..side.modes.len()], share, &side.loads);
+            let loads = &mut force.loads[side.modes.start - force.modes.start..];
+            simd::add(&mut loads[..side.modes.len()], share, &side.loads);
         }
         force
     }

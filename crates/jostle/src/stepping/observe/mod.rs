@@ -88,11 +88,11 @@ pub(crate) struct Reached<'a> {
 impl Observer {
     /// For a run that lasts `duration` \[s\]; `rises`: masses move vertically and start from this state.
     pub(crate) fn new(system: &System, duration: f64, rises: Option<&State>) -> Self {
-        let mut own = Self::watching(system, duration, watches(system, rises.is_some()));
+        let mut watching = Self::watching(system, duration, watches(system, rises.is_some()));
         if let Some(state) = rises {
-            own.watches.start(state, &mut own.peaks);
+            watching.watches.start(state, &mut watching.peaks);
         }
-        own
+        watching
     }
 
     /// Follows what is given, and accelerations and forces.
@@ -100,9 +100,14 @@ impl Observer {
         let mut places = Places::default();
         let watches = Watches::new(watches, &mut places);
         let buildings = system.buildings.iter().enumerate();
-        let buildings = buildings.map(|(index, own)| OfBuilding::new(index, own, &mut places));
+        let buildings =
+            buildings.map(|(index, building)| OfBuilding::new(index, building, &mut places));
         let buildings = buildings.collect();
-        let floors = system.buildings.iter().map(|own| own.tracks.len()).sum();
+        let floors = system
+            .buildings
+            .iter()
+            .map(|building| building.tracks.len())
+            .sum();
         let Places { columns, .. } = places;
         Self {
             peaks: vec![Peak::default(); columns.len()],
@@ -136,11 +141,11 @@ impl Observer {
             .after_step(system, state, reached.grounds, peaks, step);
         self.follow_accelerations(reached, start);
         for (index, building) in system.buildings.iter().enumerate() {
-            let (own, peaks) = (&self.buildings[index], &mut self.peaks);
-            own.take_forces(building, reached, index, peaks);
+            let (observed, peaks) = (&self.buildings[index], &mut self.peaks);
+            observed.take_forces(building, reached, index, peaks);
             let drifts = &mut self.drifts[index];
             drifts.after_step(&u[building.range()], &v[building.range()], step);
-            drifts.give_to(|track, drift| peaks[own.storeys[track][0]].widen(drift));
+            drifts.give_to(|track, drift| peaks[observed.storeys[track][0]].widen(drift));
         }
     }
 
@@ -150,14 +155,14 @@ impl Observer {
         self.parts.begin(start, state.time);
         self.sharp.begin(state.time);
         let mut floor_of_all = 0;
-        for (index, own) in self.buildings.iter().enumerate() {
+        for (index, building) in self.buildings.iter().enumerate() {
             let ground = reached.ground.of(index);
-            for (track, accelerated) in own.accelerations.iter().enumerate() {
+            for (track, accelerated) in building.accelerations.iter().enumerate() {
                 let moved = accelerated.moved_by(ground);
                 let total = state.acceleration[accelerated.dof] + moved;
                 let greatest = &mut self.peaks[accelerated.place].greatest.value;
                 *greatest = self.sharp.take(total, greatest.max(total.abs()));
-                if track < own.floors {
+                if track < building.floors {
                     self.parts.take(floor_of_all, total.abs());
                     floor_of_all += 1;
                 }
@@ -170,9 +175,9 @@ impl Observer {
         self.sharp.forget();
         self.parts.begin_jump();
         let mut floor_of_all = 0;
-        for (index, own) in self.buildings.iter().enumerate() {
+        for (index, building) in self.buildings.iter().enumerate() {
             let ground = grounds.of(index);
-            for accelerated in &own.accelerations[..own.floors] {
+            for accelerated in &building.accelerations[..building.floors] {
                 let moved = accelerated.moved_by(ground);
                 let total = state.acceleration[accelerated.dof] + moved;
                 self.peaks[accelerated.place].widen(total);
@@ -193,8 +198,8 @@ impl Observer {
     pub(crate) fn finish(mut self) -> Peaks {
         self.watches.finish(&mut self.peaks);
         let corners = self.drifts.iter().enumerate();
-        let corners = corners.flat_map(|(building, own)| {
-            columns_of_corners(building, Kind::CornerDrift, own.corners())
+        let corners = corners.flat_map(|(building, drifts)| {
+            columns_of_corners(building, Kind::CornerDrift, drifts.corners())
         });
         let others = self.columns.into_iter().zip(self.peaks);
         others.chain(corners).collect()
@@ -248,11 +253,11 @@ impl OfBuilding {
             place: at(mat, Kind::Acceleration, direction),
         };
         let floors = accelerations.len();
-        if let Some(own) = building.support {
-            accelerations.push(accelerated(own.dof, Direction::Along));
+        if let Some(support) = building.support {
+            accelerations.push(accelerated(support.dof, Direction::Along));
         }
         let across = building.mat_in_plan.as_ref();
-        let across = across.map(|own| accelerated(own.dofs[1], Direction::Across));
+        let across = across.map(|mat| accelerated(mat.dofs[1], Direction::Across));
         Self {
             accelerations,
             floors,

@@ -69,9 +69,9 @@ fn a_watch_more_is_followed_like_the_others() {
     }
     let peaks = observer.finish();
     let of = |kind| peaks.of(column(kind));
-    let close = |own: Extreme, value: f64, at: f64| {
-        assert!((own.value - value).abs() < 1e-6, "{own:?}");
-        assert!((own.at - at).abs() < 1e-3, "{own:?}");
+    let close = |extreme: Extreme, value: f64, at: f64| {
+        assert!((extreme.value - value).abs() < 1e-6, "{extreme:?}");
+        assert!((extreme.at - at).abs() < 1e-3, "{extreme:?}");
     };
     let (most, turn) = (std::f64::consts::SQRT_2, std::f64::consts::PI / 8.0);
     close(of(Kind::Stroke).greatest, most, turn);

@@ -90,7 +90,10 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
 
 /// Displacements of floors in all directions, drifts of vertical lines, and corners.
 fn of_floors(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
-    let turned = building.foundation.as_ref().map(|own| own.turning);
+    let turned = building
+        .foundation
+        .as_ref()
+        .map(|foundation| foundation.turning);
     let mut below: Option<&Track> = None;
     for (place, track) in building.tracks.iter().enumerate() {
         let owner = floor_of(index, building, place);
@@ -130,43 +133,46 @@ fn of_support(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
         let rows = [row, Row::default()];
         Watch::new(work, Statistic::Dashpots([damping, 0.0, 0.0], rows))
     };
-    let Some(own) = &building.mat_in_plan else {
+    let Some(building_mat) = &building.mat_in_plan else {
         all.push(dashpot(support.damping, Row::single(support.dof)));
         return;
     };
-    all.push(moved(mat.across(), own.dofs[1]));
-    all.push(moved(mat.turning(), own.dofs[2]));
-    for (bearing, rows) in own.rows.iter().enumerate() {
+    all.push(moved(mat.across(), building_mat.dofs[1]));
+    all.push(moved(mat.turning(), building_mat.dofs[2]));
+    for (bearing, rows) in building_mat.rows.iter().enumerate() {
         let owner = Owner::Bearing {
             building: index,
             bearing,
         };
         all.push(length(Column::along(owner, Kind::Stroke), rows, building));
     }
-    for row in own.rows.iter().flatten() {
-        all.push(dashpot(own.damping, row.moved_up(building.offset)));
+    for row in building_mat.rows.iter().flatten() {
+        all.push(dashpot(building_mat.damping, row.moved_up(building.offset)));
     }
     let corner = Column::along(mat.owner, Kind::CornerDisplacement);
-    let corners = own.corners.iter();
+    let corners = building_mat.corners.iter();
     all.extend(corners.map(|rows| length(corner, rows, building)));
 }
 
 /// A rigid foundation on soil.
 fn of_foundation(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
-    let Some(own) = building.foundation else {
+    let Some(foundation) = building.foundation else {
         return;
     };
     let of = |kind| Column::along(Owner::Foundation(index), kind);
     let displacement = of(Kind::Displacement);
-    all.extend(own.sway.map(|dof| moved(displacement, dof)));
-    all.push(moved(displacement.turning(), own.turning));
-    let sway = own.sway.map(Row::single).unwrap_or_default();
-    let dashpots = Statistic::Dashpots(own.own_damping, [sway, Row::single(own.turning)]);
+    all.extend(foundation.sway.map(|dof| moved(displacement, dof)));
+    all.push(moved(displacement.turning(), foundation.turning));
+    let sway = foundation.sway.map(Row::single).unwrap_or_default();
+    let dashpots = Statistic::Dashpots(
+        foundation.own_damping,
+        [sway, Row::single(foundation.turning)],
+    );
     all.push(Watch::new(of(Kind::Work), dashpots));
-    let Some(rise) = own.rise else { return };
+    let Some(rise) = foundation.rise else { return };
     all.push(moved(displacement.up(), rise));
-    let middle = [(rise, 1.0), (own.turning, own.middle)];
-    let damping = [own.springs.vertical_damping, 0.0, 0.0];
+    let middle = [(rise, 1.0), (foundation.turning, foundation.middle)];
+    let damping = [foundation.springs.vertical_damping, 0.0, 0.0];
     let rows = [middle.into_iter().collect(), Row::default()];
     let dashpots = Statistic::Dashpots(damping, rows);
     all.push(Watch::new(of(Kind::Work), dashpots));
@@ -175,7 +181,7 @@ fn of_foundation(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) 
 /// A rigid foundation on soil in plan, whose dashpots do not act on each other.
 fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
     let motions = building.foundation_in_plan.zip(building.base_motions());
-    let Some((own, motions)) = motions else {
+    let Some((foundation, motions)) = motions else {
         return;
     };
     let motions = motions.map(|row| row.moved_up(building.offset));
@@ -194,7 +200,7 @@ fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<
     if let Some(rise) = building.base_rise() {
         let rise = rise.moved_up(building.offset);
         all.push(Watch::new(moved.up(), Statistic::Extremes(rise.clone())));
-        let damping = [own.springs.along.vertical_damping, 0.0, 0.0];
+        let damping = [foundation.springs.along.vertical_damping, 0.0, 0.0];
         let dashpots = Statistic::Dashpots(damping, [rise, Row::default()]);
         all.push(Watch::new(of(Kind::Work), dashpots));
     }
@@ -202,7 +208,7 @@ fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<
         along,
         across,
         torsion,
-    } = own.springs;
+    } = foundation.springs;
     for (damping, rows) in [
         (
             [along.sway_damping, 0.0, along.rocking_damping],
@@ -224,7 +230,8 @@ fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<
 /// Ground under foundations and feet of columns that can lift off.
 fn of_footings(building: &BuildingSystem, all: &mut Vec<Watch>) {
     let springs = building.equations.springs.iter().enumerate();
-    let ground = springs.filter(|(_, own)| own.hysteresis.rule() == HysteresisRule::Ground);
+    let ground =
+        springs.filter(|(_, candidate)| candidate.hysteresis.rule() == HysteresisRule::Ground);
     all.extend(ground.map(|(index, _)| {
         let spring = building.spring_offset + index;
         let column = Column::along(Owner::Spring(spring), Kind::Lifted);
@@ -234,16 +241,16 @@ fn of_footings(building: &BuildingSystem, all: &mut Vec<Watch>) {
 
 /// Hinges whose rotations have limits.
 fn of_limited_ends(building: &BuildingSystem, all: &mut Vec<Watch>) {
-    for own in &building.limited_ends {
-        let law = &building.equations.springs[own.spring].hysteresis;
-        let spring = building.spring_offset + own.spring;
-        for (level, limit) in &own.limits {
+    for limited_end in &building.limited_ends {
+        let law = &building.equations.springs[limited_end.spring].hysteresis;
+        let spring = building.spring_offset + limited_end.spring;
+        for (level, limit) in &limited_end.limits {
             let column = Column::along(Owner::Spring(spring), Kind::Beyond(*level));
             all.extend(Side::BOTH.map(|side| {
                 let limit = DeformationLimit {
                     springs: vec![spring],
                     side,
-                    deformation: own.deformation_at(law, side, *limit),
+                    deformation: limited_end.deformation_at(law, side, *limit),
                 };
                 Watch::new(column, Statistic::Passed(limit))
             }));
@@ -253,12 +260,18 @@ fn of_limited_ends(building: &BuildingSystem, all: &mut Vec<Watch>) {
 
 /// Bays of infill panels whose damage is judged: how much their diagonals change their length.
 fn of_panels(building: &BuildingSystem, all: &mut Vec<Watch>) {
-    let own = &building.discretization;
-    for diagonal in own.diagonals.iter().filter(|own| own.damage.is_some()) {
-        let Some(spring) = own.spring_of_diagonal(diagonal) else {
+    let discretization = &building.discretization;
+    for diagonal in discretization
+        .diagonals
+        .iter()
+        .filter(|diagonal| diagonal.damage.is_some())
+    {
+        let Some(spring) = discretization.spring_of_diagonal(diagonal) else {
             continue;
         };
-        let row = own.stick_model.carried_row(&diagonal.between_joints);
+        let row = discretization
+            .stick_model
+            .carried_row(&diagonal.between_joints);
         let row = building.equations.row(&row).moved_up(building.offset);
         let owner = Owner::Spring(building.spring_offset + spring);
         let column = Column::along(owner, Kind::Stroke);
@@ -273,29 +286,32 @@ fn of_sections(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
         sections,
         ..
     } = &building.discretization;
-    for (section, own) in sections.iter().enumerate() {
+    for (section, fibre_section) in sections.iter().enumerate() {
         let owner = Owner::Section {
             building: index,
             section,
         };
         let moved = Column::along(owner, Kind::Displacement);
         let turned = [moved.turning(), moved.across()];
-        let turned = turned.into_iter().zip(&own.rotations);
-        for (column, row) in [(moved.up(), &own.elongation)].into_iter().chain(turned) {
+        let turned = turned.into_iter().zip(&fibre_section.rotations);
+        for (column, row) in [(moved.up(), &fibre_section.elongation)]
+            .into_iter()
+            .chain(turned)
+        {
             let row = building.equations.row(&stick_model.carried_row(row));
             let row = row.moved_up(building.offset);
             all.push(Watch::new(column, Statistic::Extremes(row)));
         }
-        let springs = building.discretization.springs_of_section(own);
-        for (limit, strain) in &own.limits {
-            let fibres = springs.clone().zip(own.fibres.iter());
+        let springs = building.discretization.springs_of_section(fibre_section);
+        for (limit, strain) in &fibre_section.limits {
+            let fibres = springs.clone().zip(fibre_section.fibres.iter());
             let judged = fibres.filter(|(_, fibre)| fibre.material == limit.material());
             let limit_of_springs = DeformationLimit {
                 springs: judged
                     .map(|(spring, _)| building.spring_offset + spring)
                     .collect(),
                 side: limit.side(),
-                deformation: strain * own.length,
+                deformation: strain * fibre_section.length,
             };
             let column = Column::along(owner, Kind::Passed(*limit));
             all.push(Watch::new(column, Statistic::Passed(limit_of_springs)));

@@ -63,29 +63,29 @@ impl Watches {
 
     /// Begins a run whose masses do not stand at their heights.
     pub(super) fn start(&self, state: &State, peaks: &mut [Peak]) {
-        for own in &self.sizes {
-            peaks[own.place].widen(own.number.value(&state.displacement));
+        for size in &self.sizes {
+            peaks[size.place].widen(size.number.value(&state.displacement));
         }
     }
 
     /// Stores what numbers are at the start of a step.
     pub(super) fn before_step(&mut self, system: &System, state: &State, grounds: &RunGrounds<'_>) {
         let (u, v) = (&state.displacement[..], &state.velocity[..]);
-        for own in &mut self.displacements {
-            own.then = (u[own.number], v[own.number]);
+        for displacement in &mut self.displacements {
+            displacement.then = (u[displacement.number], v[displacement.number]);
         }
-        for own in self.extremes.iter_mut().chain(&mut self.sizes) {
-            own.then = (own.number.value(u), own.number.value(v));
+        for extreme in self.extremes.iter_mut().chain(&mut self.sizes) {
+            extreme.then = (extreme.number.value(u), extreme.number.value(v));
         }
-        for own in &mut self.closings {
-            own.then = closing(system, own.number, state, grounds);
+        for followed in &mut self.closings {
+            followed.then = closing(system, followed.number, state, grounds);
         }
-        for own in &mut self.lengths {
-            own.then = square(&own.number, u, v);
+        for length in &mut self.lengths {
+            length.then = square(&length.number, u, v);
         }
-        for own in &mut self.dashpots {
-            let [x, turn] = &own.number.1;
-            own.then = (x.value(u), turn.value(u));
+        for dashpot in &mut self.dashpots {
+            let [x, turn] = &dashpot.number.1;
+            dashpot.then = (x.value(u), turn.value(u));
         }
     }
 
@@ -100,56 +100,61 @@ impl Watches {
     ) {
         let start = state.time - step;
         let (u, v) = (&state.displacement[..], &state.velocity[..]);
-        for own in &self.displacements {
-            let now = (u[own.number], v[own.number]);
-            take_extremes(&mut peaks[own.place], [own.then, now], start, step);
+        for displacement in &self.displacements {
+            let now = (u[displacement.number], v[displacement.number]);
+            take_extremes(
+                &mut peaks[displacement.place],
+                [displacement.then, now],
+                start,
+                step,
+            );
         }
-        for own in &self.extremes {
-            let now = (own.number.value(u), own.number.value(v));
-            take_extremes(&mut peaks[own.place], [own.then, now], start, step);
+        for extreme in &self.extremes {
+            let now = (extreme.number.value(u), extreme.number.value(v));
+            take_extremes(&mut peaks[extreme.place], [extreme.then, now], start, step);
         }
-        for own in &self.sizes {
-            let now = (own.number.value(u), own.number.value(v));
+        for size in &self.sizes {
+            let now = (size.number.value(u), size.number.value(v));
             for sign in [1.0, -1.0] {
-                let [then, now] = [own.then, now].map(|(u, v)| (sign * u, sign * v));
+                let [then, now] = [size.then, now].map(|(u, v)| (sign * u, sign * v));
                 let greatest = greatest_in_step(then, now, start, step);
-                let peak = &mut peaks[own.place].greatest.value;
+                let peak = &mut peaks[size.place].greatest.value;
                 *peak = peak.max(greatest.value);
             }
         }
-        for own in &self.drifts {
+        for drift in &self.drifts {
             let Drift {
                 above,
                 below,
                 turned,
                 height,
-            } = own.number;
+            } = drift.number;
             let below = below.map_or(0.0, |dof| u[dof]);
             let turned = turned.map_or(0.0, |dof| u[dof]);
-            peaks[own.place].widen((u[above] - below) / height + turned);
+            peaks[drift.place].widen((u[above] - below) / height + turned);
         }
-        for own in &self.closings {
-            let now = closing(system, own.number, state, grounds);
-            raise(peaks, own, now, start, step);
+        for followed in &self.closings {
+            let now = closing(system, followed.number, state, grounds);
+            raise(peaks, followed, now, start, step);
         }
-        for own in &self.lengths {
-            raise(peaks, own, square(&own.number, u, v), start, step);
+        for length in &self.lengths {
+            raise(peaks, length, square(&length.number, u, v), start, step);
         }
-        for own in &self.dashpots {
-            let ([uu, ut, tt], rows) = &own.number;
+        for dashpot in &self.dashpots {
+            let ([uu, ut, tt], rows) = &dashpot.number;
             let [x, turn] = rows.each_ref().map(|row| row.value(u));
-            let (x, turn) = (x - own.then.0, turn - own.then.1);
+            let (x, turn) = (x - dashpot.then.0, turn - dashpot.then.1);
             let taken = uu * x * x + 2.0 * ut * x * turn + tt * turn * turn;
-            peaks[own.place].greatest.value += taken / step;
+            peaks[dashpot.place].greatest.value += taken / step;
         }
-        for own in &self.lifted {
-            if state.springs[own.number].force() == 0.0 {
-                peaks[own.place].greatest.value += step;
+        for followed in &self.lifted {
+            if state.springs[followed.number].force() == 0.0 {
+                peaks[followed.place].greatest.value += step;
             }
         }
-        for own in &self.passed {
-            let peak = &mut peaks[own.place].greatest;
-            if peak.value == 0.0 && own.number.is_passed(state) {
+        for followed in &self.passed {
+            let peak = &mut peaks[followed.place].greatest;
+            if peak.value == 0.0 && followed.number.is_passed(state) {
                 *peak = Extreme {
                     value: 1.0,
                     at: state.time,
@@ -160,7 +165,7 @@ impl Watches {
 
     /// Ends a run: lengths were followed as squares.
     pub(super) fn finish(&self, peaks: &mut [Peak]) {
-        let mut places: Vec<usize> = self.lengths.iter().map(|own| own.place).collect();
+        let mut places: Vec<usize> = self.lengths.iter().map(|length| length.place).collect();
         places.dedup();
         for place in places {
             let greatest = &mut peaks[place].greatest.value;
@@ -186,9 +191,9 @@ fn follow<T>(list: &mut Vec<Followed<T>>, number: T, place: usize) {
 }
 
 #[inline]
-fn raise<T>(peaks: &mut [Peak], own: &Followed<T>, now: Motion, start: f64, step: f64) {
-    let greatest = greatest_in_step(own.then, now, start, step);
-    let peak = &mut peaks[own.place].greatest;
+fn raise<T>(peaks: &mut [Peak], followed: &Followed<T>, now: Motion, start: f64, step: f64) {
+    let greatest = greatest_in_step(followed.then, now, start, step);
+    let peak = &mut peaks[followed.place].greatest;
     if greatest.value > peak.value {
         *peak = greatest;
     }

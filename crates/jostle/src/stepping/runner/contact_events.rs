@@ -392,12 +392,16 @@ impl<S: Stepper> Runner<'_, S> {
                 let change = episode.jump(law, &self.run.trials[index], self.run.time);
                 if let Some(friction) = &self.run.system.contacts[index].friction {
                     // What presses may hold no more.
-                    let own = &mut episode.friction;
+                    let episode_friction = &mut episode.friction;
                     let [slip, _] = self.stepper.slip(&self.run, index);
-                    let (force, _) = friction.law.force(slip, own.origin, episode.force);
+                    let (force, _) =
+                        friction
+                            .law
+                            .force(slip, episode_friction.origin, episode.force);
                     self.stepper
-                        .change_friction(&self.run, index, force - own.force);
-                    (own.origin, own.force) = (friction.law.origin(slip, force), force);
+                        .change_friction(&self.run, index, force - episode_friction.force);
+                    (episode_friction.origin, episode_friction.force) =
+                        (friction.law.origin(slip, force), force);
                 }
                 self.run.phases[index] = ContactPhase::Closed(episode);
                 self.stepper.change_force(&self.run, index, change);
@@ -417,9 +421,9 @@ impl<S: Stepper> Runner<'_, S> {
         episode.peak_force = episode.force;
         if contact.friction.is_some() {
             let [slip, speed] = self.stepper.slip(&self.run, index);
-            let own = &mut episode.friction;
-            (own.origin, own.touched_at, own.slip_speed) = (slip, slip, speed);
-            own.peak.at = self.run.time;
+            let friction = &mut episode.friction;
+            (friction.origin, friction.touched_at, friction.slip_speed) = (slip, slip, speed);
+            friction.peak.at = self.run.time;
         }
         // The division that the impact expected of this rate needs, in view of the strongest of the gap so far.
         let expected = contact.law.elastic_force(contact.effective_mass(), rate);

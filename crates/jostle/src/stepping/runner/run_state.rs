@@ -84,7 +84,11 @@ impl<'a> RunState<'a> {
             cuts_at_corners: plan.chooses_contact_steps() && motion.has_corners_off(plan.step),
             phases: vec![ContactPhase::Open; contacts],
             crushed: vec![0.0; contacts],
-            widths: system.contacts.iter().map(|own| own.width).collect(),
+            widths: system
+                .contacts
+                .iter()
+                .map(|contact| contact.width)
+                .collect(),
             near: (0..contacts).collect(),
             trials: vec![
                 ContactTrial::default();

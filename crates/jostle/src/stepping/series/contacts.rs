@@ -179,11 +179,11 @@ impl SeriesStepper {
         let [openings, rates] = &mut self.equations.openings;
         openings.reset(self.graph.first_coupled(&run.coupling.places));
         rates.reset_like(openings);
-        for (row, own) in closed.iter().enumerate() {
+        for (row, closed_contact) in closed.iter().enumerate() {
             for column in openings.columns(row) {
                 let mut by_force = 0.0;
                 let other = closed[column].contact;
-                for (shown, own_sign) in run.system.contacts[own.contact].ports.sides() {
+                for (shown, own_sign) in run.system.contacts[closed_contact.contact].ports.sides() {
                     for (pushed, sign) in run.system.contacts[other].ports.sides() {
                         if shown.building != pushed.building {
                             continue;

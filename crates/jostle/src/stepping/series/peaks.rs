@@ -180,7 +180,9 @@ impl SeriesPeaks {
             }
         }
         let closings = self.closing.iter().enumerate();
-        all.extend(closings.map(|(contact, own)| (Column::closing(contact), (*own).into())));
+        all.extend(
+            closings.map(|(contact, closing)| (Column::closing(contact), (*closing).into())),
+        );
         all.extend(columns_of_springs(&self.springs));
         all.into_iter().collect()
     }
@@ -235,8 +237,8 @@ impl SeriesPeaks {
             self.parts.take(first_floor + number, total[1].0.abs());
             let lower = below.map_or([(0.0, 0.0); 2], moves);
             let drift = [0, 1].map(|side| {
-                let (own, lower): ((f64, f64), (f64, f64)) = (ends[side], lower[side]);
-                (own.0 - lower.0, own.1 - lower.1)
+                let (upper, lower): ((f64, f64), (f64, f64)) = (ends[side], lower[side]);
+                (upper.0 - lower.0, upper.1 - lower.1)
             });
             let mut greatest = peaks.storey_drift * floor.storey_height;
             follow(&mut greatest, drift, step, || {
@@ -301,8 +303,10 @@ impl SeriesPeaks {
         let (ends, storeys) = ([&segment.start, &segment.end], &building.storeys);
         let springs = &building.equations.springs;
         let carried = |form: &dyn Fn(usize) -> f64| -> f64 {
-            let own = (0..springs.len()).filter(|spring| springs[*spring].in_base_shear != 0.0);
-            own.map(|spring| springs[spring].in_base_shear * form(spring))
+            let base_springs =
+                (0..springs.len()).filter(|spring| springs[*spring].in_base_shear != 0.0);
+            base_springs
+                .map(|spring| springs[spring].in_base_shear * form(spring))
                 .sum()
         };
         let base = |values: &[f64], form: &dyn Fn(usize) -> f64| {
@@ -316,7 +320,7 @@ impl SeriesPeaks {
         let floors = &mut self.floors[index];
         let mut base_ends: Ends = [(0.0, 0.0); 2];
         // The start is the end of the segment before, and matters only if there may be more after it.
-        for (side, own) in self.storeys.iter_mut().enumerate().rev() {
+        for (side, forces) in self.storeys.iter_mut().enumerate().rev() {
             if side == 0 && !near && !was_near {
                 return;
             }
@@ -326,7 +330,7 @@ impl SeriesPeaks {
             let u = &ends[side][0];
             let force = |spring: usize| segment.forces[side][spring];
             storeys.for_each(u, force, NO_LINK, |storey, value| {
-                own[storey] = value;
+                forces[storey] = value;
                 let peaks = &mut floors[storey];
                 near |= value.shear.abs() > NEAR * peaks.storey_shear
                     || value.moment.abs() > NEAR * peaks.overturning_moment;
@@ -349,18 +353,18 @@ impl SeriesPeaks {
         let ([then, now], [leaves, comes]) = (&self.storeys, &self.storey_rates);
         let storey_motion = |storey: usize, of: fn(StoreyForce) -> f64| {
             let form = |row: &[f64]| {
-                let mut own = 0.0;
+                let mut force = 0.0;
                 storeys.for_each(
                     row,
                     |spring| rate_of(row, spring),
                     NO_LINK,
                     |at, value| {
                         if at == storey {
-                            own = of(value);
+                            force = of(value);
                         }
                     },
                 );
-                own
+                force
             };
             segment.series.form(form).starting_at(of(then[storey]))
         };

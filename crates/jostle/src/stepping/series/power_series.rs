@@ -483,10 +483,10 @@ mod tests {
             let w2 = omega * omega;
             let particular = [-slope * damping / (w2 * w2), slope / w2];
             let decay = 0.5 * damping;
-            let own = (w2 - decay * decay).sqrt();
+            let damped_omega = (w2 - decay * decay).sqrt();
             let (p, q) = (u - particular[0], v - particular[1]);
-            let (cos, sin) = ((own * step).cos(), (own * step).sin());
-            let free = (-decay * step).exp() * (p * cos + (q + decay * p) / own * sin);
+            let (cos, sin) = ((damped_omega * step).cos(), (damped_omega * step).sin());
+            let free = (-decay * step).exp() * (p * cos + (q + decay * p) / damped_omega * sin);
             let expected = free + particular[0] + particular[1] * step;
             let mut end = [(); 4].map(|()| vec![0.0; LANES]);
             let share = 1.0;

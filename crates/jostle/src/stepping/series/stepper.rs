@@ -88,9 +88,9 @@ impl SeriesStepper {
     fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
         let springs = || {
-            let own = system.buildings.iter();
-            let own = own.flat_map(|building| &building.equations.springs);
-            own.zip(&state.springs)
+            let buildings = system.buildings.iter();
+            let springs = buildings.flat_map(|building| &building.equations.springs);
+            springs.zip(&state.springs)
         };
         let totals = springs().map(|(spring, memory)| SpringTotals {
             peak_force: memory.force().abs(),
@@ -106,7 +106,9 @@ impl SeriesStepper {
         let motions = system.buildings.iter();
         Self {
             motions: motions
-                .map(|own| BuildingMotion::new(&own.equations, &state.springs[own.spring_range()]))
+                .map(|motion| {
+                    BuildingMotion::new(&motion.equations, &state.springs[motion.spring_range()])
+                })
                 .collect(),
             tried: [list(), list(), list()],
             jerk: list(),
@@ -114,7 +116,7 @@ impl SeriesStepper {
             predicted: vec![PredictedForce::default(); system.contacts.len()],
             equations: ForceEquations::default(),
             tried_forces: Vec::with_capacity(system.contacts.len()),
-            graph: InterfaceGraph::new(contacts, system.buildings.len(), |own| own),
+            graph: InterfaceGraph::new(contacts, system.buildings.len(), |building| building),
             open_steps: vec![0; system.contacts.len()],
             least_division: settings.rows_per_step(plan),
             length: 0.0,
@@ -280,11 +282,13 @@ impl SeriesStepper {
     fn note_stage(&mut self, system: &System, spring: usize, stage: Option<Stage>) {
         let stage = stage.unwrap_or_else(|| {
             let buildings = system.buildings.iter();
-            let own = buildings
+            let yielding_spring = buildings
                 .flat_map(|building| &building.equations.springs)
                 .nth(spring);
-            own.map_or(Stage::Uncracked, |own| {
-                own.hysteresis.stage(&self.state.springs[spring])
+            yielding_spring.map_or(Stage::Uncracked, |yielding_spring| {
+                yielding_spring
+                    .hysteresis
+                    .stage(&self.state.springs[spring])
             })
         });
         if stage > self.stages[spring] {
@@ -568,7 +572,7 @@ impl Stepper for SeriesStepper {
         self.record(run, was_closed);
         check_collapse(run, |building| {
             let floors = self.peaks.floors[building].iter();
-            floors.map(|own| own.storey_drift).enumerate()
+            floors.map(|floor| floor.storey_drift).enumerate()
         })
     }
 
@@ -619,8 +623,8 @@ impl Stepper for SeriesStepper {
         for (port, sign) in contact.ports.sides() {
             let building = &run.system.buildings[port.building];
             for &(dof, share) in port.row.entries() {
-                let own = building.equations.mass[dof - building.offset];
-                self.state.velocity[dof] += sign * share * impulse / own;
+                let mass = building.equations.mass[dof - building.offset];
+                self.state.velocity[dof] += sign * share * impulse / mass;
             }
         }
         let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);

@@ -59,11 +59,11 @@ impl Chain {
         let by_chain = in_order(&listed, columns, |entry| entry.0);
         // Index of a column in its chain.
         let mut link = vec![0; columns];
-        let chains = by_chain.chunk_by(|a, b| a.0 == b.0).map(|own| {
-            for (place, (_, column)) in own.iter().enumerate() {
+        let chains = by_chain.chunk_by(|a, b| a.0 == b.0).map(|chunk| {
+            for (place, (_, column)) in chunk.iter().enumerate() {
                 link[*column as usize] = place;
             }
-            let columns: Vec<u32> = own.iter().map(|(_, column)| *column).collect();
+            let columns: Vec<u32> = chunk.iter().map(|(_, column)| *column).collect();
             let mut met = Vec::new();
             for (from, column) in columns.iter().enumerate() {
                 let column = *column as usize;
@@ -112,7 +112,7 @@ impl Chain {
                 let end = far.iter().position(|end| *end == row);
                 end.map(|end| columns.len() + end).ok_or(row)
             });
-            let own = match to {
+            let slot = match to {
                 Ok(link) => {
                     let back = reach.band.checked_sub(link - from)?;
                     link * reach.block() + 1 + back
@@ -122,7 +122,7 @@ impl Chain {
                     from * reach.block() + 1 + reach.band + end
                 }
             };
-            places[own] = Place::Lower(*place);
+            places[slot] = Place::Lower(*place);
         }
         // Missing near ends receive zeros, and their values are not used.
         let spare = near.first().or(far.first()).or(columns.last());
@@ -143,7 +143,7 @@ impl Chain {
             && self.columns.len() == other.columns.len()
             && self.far.len() == other.far.len();
         let mut pairs = self.columns.iter().zip(&other.columns);
-        alike && pairs.all(|(own, its)| *own == its + places as u32)
+        alike && pairs.all(|(candidate, its)| *candidate == its + places as u32)
     }
 }
 

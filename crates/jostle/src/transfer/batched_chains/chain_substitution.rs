@@ -136,15 +136,15 @@ fn at(list: &[f64], first: u32) -> Lanes {
 #[inline(always)]
 fn put(list: &mut [f64], first: u32, values: &Lanes, chains: usize) {
     let first = first as usize;
-    let own = &mut list[first..first + LANES];
+    let lanes = &mut list[first..first + LANES];
     if chains == LANES {
-        own.copy_from_slice(values);
+        lanes.copy_from_slice(values);
     } else {
         for lane in 0..LANES {
-            own[lane] = if lane < chains {
+            lanes[lane] = if lane < chains {
                 values[lane]
             } else {
-                own[lane]
+                lanes[lane]
             };
         }
     }

@@ -97,8 +97,8 @@ impl NullaryFnOnce for Eliminate<'_> {
             for ((column, _), value) in sweep.before[entries.clone()].iter().zip(&before[entries]) {
                 work[*column as usize] = [*value; RATES];
             }
-            let own = squares.map(|square| stiffness + square * sweep.mass[row]);
-            let mut pivots = own;
+            let diagonals = squares.map(|square| stiffness + square * sweep.mass[row]);
+            let mut pivots = diagonals;
             let reached = sweep.reached_starts[row]..sweep.reached_starts[row + 1];
             let columns = sweep.reached[reached.clone()].iter();
             for (&column, &position) in columns.zip(&sweep.positions[reached]) {
@@ -116,7 +116,7 @@ impl NullaryFnOnce for Eliminate<'_> {
                 subtract(&mut pivots, &coupling, &values);
                 lower[position] = coupling;
             }
-            let unsound = |rate: usize| super::sound(row, own[rate], pivots[rate]).err();
+            let unsound = |rate: usize| super::sound(row, diagonals[rate], pivots[rate]).err();
             if let Some(failure) = (0..RATES).find_map(unsound) {
                 return Err(failure);
             }
@@ -197,8 +197,8 @@ mod tests {
         sweep.solve_at(&factors, &mut of_all);
         let mut of_one = loads.clone();
         sweep.solve_at(&factors.only(3), &mut of_one);
-        for (lane, own) in rates.into_iter().enumerate() {
-            for (rate, answers) in [(own, &of_all), (rates[3], &of_one)] {
+        for (lane, lane_rate) in rates.into_iter().enumerate() {
+            for (rate, answers) in [(lane_rate, &of_all), (rates[3], &of_one)] {
                 let mut factor = RiccatiFactor::default();
                 let matrix = StepMatrix::new(1.0, rate * rate);
                 let tangents = building.equations.initial_tangents();

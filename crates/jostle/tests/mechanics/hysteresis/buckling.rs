@@ -42,21 +42,21 @@ fn bow(n: f64) -> f64 {
 /// at zero force the kink stays, and under tension the strut follows the mirrored curve to yield.
 #[test]
 fn every_branch_has_its_closed_form() {
-    let own = tube(1.0);
-    let law = spring(own);
-    let (k, strength) = (own.stiffness, own.yield_force);
-    let soft = std::f64::consts::PI.powi(2) / 12.0 * own.slenderness.powi(2);
+    let strut = tube(1.0);
+    let law = spring(strut);
+    let (k, strength) = (strut.stiffness, strut.yield_force);
+    let soft = std::f64::consts::PI.powi(2) / 12.0 * strut.slenderness.powi(2);
     let kink = |n: f64| bow(n) * (1.0 - soft * n);
     let mut memory = HysteresisMemory::default();
     let first = law.next_corner(&memory, Side::Negative);
-    let buckles = own.buckling_force / k;
+    let buckles = strut.buckling_force / k;
     assert!((first + buckles).abs() < 1e-15);
     let just = law.respond(&memory, -0.999 * buckles);
-    assert!((just.force + 0.999 * own.buckling_force).abs() < 1e-9 * strength);
+    assert!((just.force + 0.999 * strut.buckling_force).abs() < 1e-9 * strength);
     assert_eq!(law.stage(&just.memory), Stage::Uncracked);
     // Along compression every corner obeys the equations; the flow is a sum of trapezoids.
     memory = just.memory;
-    let (mut n0, mut x0, mut flow) = (own.buckling_force / strength, 0.0, 0.0);
+    let (mut n0, mut x0, mut flow) = (strut.buckling_force / strength, 0.0, 0.0);
     let mut corners = Vec::new();
     memory = law.respond(&memory, -buckles).memory;
     for number in 0..12 {
@@ -65,8 +65,8 @@ fn every_branch_has_its_closed_form() {
         let response = law.respond(&memory, corner);
         let n = -response.force / strength;
         let x = kink(n);
-        flow += 2.0 * own.shortening * (n + n0) * (x - x0);
-        let due = n * strength / k + own.shortening * bow(n) * bow(n) + flow;
+        flow += 2.0 * strut.shortening * (n + n0) * (x - x0);
+        let due = n * strength / k + strut.shortening * bow(n) * bow(n) + flow;
         assert!(
             (corner + due).abs() < 1e-12,
             "corner {number}: {corner} {due}"
@@ -76,7 +76,7 @@ fn every_branch_has_its_closed_form() {
         (n0, x0) = (n, x);
         memory = response.memory;
     }
-    assert!(corners[11].0 < 0.1 && corners[0].0 < own.buckling_force / strength);
+    assert!(corners[11].0 < 0.1 && corners[0].0 < strut.buckling_force / strength);
     // The eighth corner: unloading to the kink alone, then to the mirrored curve.
     memory = HysteresisMemory::default();
     for _ in 0..9 {
@@ -86,7 +86,7 @@ fn every_branch_has_its_closed_form() {
     let (n, x, flow) = corners[7];
     assert!((memory.force() + n * strength).abs() < 1e-9 * strength);
     let zero = law.next_corner(&memory, Side::Positive);
-    let due = -flow - own.shortening * x * x;
+    let due = -flow - strut.shortening * x * x;
     assert!((zero - due).abs() < 1e-12, "{zero} {due}");
     let response = law.respond(&memory, zero);
     assert!(response.force.abs() < 1e-9 * strength);
@@ -105,9 +105,9 @@ fn every_branch_has_its_closed_form() {
         let residual = (1.0 - n * n) * (1.0 + soft * n) - n * x;
         assert!(residual.abs() < 1e-9, "{place}: {residual}");
         if let Some((n0, x0)) = last {
-            grown += 2.0 * own.shortening * (n + n0) * (x0 - x);
+            grown += 2.0 * strut.shortening * (n + n0) * (x0 - x);
         }
-        let due = grown + n * strength / k - own.shortening * bow(n) * bow(n);
+        let due = grown + n * strength / k - strut.shortening * bow(n) * bow(n);
         assert!((corner - due).abs() < 1e-12, "{place}: {corner} {due}");
         last = Some((n, x));
         memory = response.memory;
@@ -118,10 +118,10 @@ fn every_branch_has_its_closed_form() {
     let response = law.respond(&memory, corner);
     // corners[0] is the last kink before the strut is straight.
     let (n1, x1) = (response.force / strength, corners[0].1);
-    grown += 2.0 * own.shortening * (n0 + n1) * (x0 - x1);
+    grown += 2.0 * strut.shortening * (n0 + n1) * (x0 - x1);
     memory = response.memory;
     let straight = law.next_corner(&memory, Side::Positive);
-    grown += 2.0 * own.shortening * (n1 + 1.0) * x1;
+    grown += 2.0 * strut.shortening * (n1 + 1.0) * x1;
     assert!((straight - grown - strength / k).abs() < 1e-12);
     let response = law.respond(&memory, straight + 0.004);
     assert!((response.force - strength - 0.004 * 0.01 * k).abs() < 1e-9 * strength);
@@ -131,7 +131,7 @@ fn every_branch_has_its_closed_form() {
     assert!(again.force < 0.0);
     let elastic = response.memory.deformation() - response.force / k;
     let at = elastic - buckles;
-    assert!((law.respond(&response.memory, at).force / own.buckling_force + 1.0).abs() < 1e-9);
+    assert!((law.respond(&response.memory, at).force / strut.buckling_force + 1.0).abs() < 1e-9);
     let weak = spring(tube(0.6));
     let mut memory = HysteresisMemory::default();
     for to in [-0.03, straight + 0.004] {
@@ -139,8 +139,8 @@ fn every_branch_has_its_closed_form() {
     }
     let elastic = memory.deformation() - memory.force() / k;
     let at = |share: f64| {
-        let to = elastic - share * own.buckling_force / k;
-        weak.respond(&memory, to).force / own.buckling_force
+        let to = elastic - share * strut.buckling_force / k;
+        weak.respond(&memory, to).force / strut.buckling_force
     };
     assert!(
         (at(0.599) + 0.599).abs() < 1e-9 && at(0.8) > -0.6001,
@@ -159,11 +159,11 @@ fn fibre_braces_buckle_alike() {
     for case in stored["cases"].as_array().expect("cases") {
         let number = |value: &serde_json::Value, key: &str| value[key].as_f64().expect("a number");
         let sizes = ["side", "wall", "length"].map(|key| number(case, key));
-        let own = BucklingBrace {
+        let brace = BucklingBrace {
             post_yield: 0.003,
             ..of_sizes(sizes, 0.65)
         };
-        let law = spring(own);
+        let law = spring(brace);
         let mut memory = HysteresisMemory::default();
         let (mut done, mut due) = (0.0, 0.0);
         for (leg, stored) in case["legs"].as_array().expect("legs").iter().enumerate() {

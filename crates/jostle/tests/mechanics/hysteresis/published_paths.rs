@@ -321,25 +321,29 @@ fn pinched_struts_bear_compression_alone() {
     };
     let backbone = Backbone::falling(120e6, corners, corners, -0.05, 0.2).expect("sound");
     let both = Hysteresis::new(HysteresisRule::Pinched(Pinching::USUAL), backbone).expect("fits");
-    let own = both.in_compression().expect("pinched");
+    let compression = both.in_compression().expect("pinched");
     let go = |spring: &Hysteresis, memory: &HysteresisMemory, to: f64| spring.respond(memory, to);
     let at_rest = HysteresisMemory::default();
     // Never pressed: nothing in tension, the initial stiffness in compression, in one step or in two.
-    let open = go(&own, &at_rest, 2e-3);
+    let open = go(&compression, &at_rest, 2e-3);
     assert_eq!([open.force, open.tangent, open.work], [0.0; 3]);
-    let pressed = go(&own, &open.memory, -1e-3);
+    let pressed = go(&compression, &open.memory, -1e-3);
     assert!((pressed.force + 120e3).abs() < 1e-6, "{}", pressed.force);
-    let first = go(&own, &at_rest, -1e-3);
+    let first = go(&compression, &at_rest, -1e-3);
     assert!((first.force - pressed.force).abs() < 1e-6);
-    assert_eq!(go(&own, &first.memory, 1e-3).force, 0.0);
+    assert_eq!(go(&compression, &first.memory, 1e-3).force, 0.0);
     // Pressed past yield, and drawn: it opens where the other one passes zero.
-    let (mine, other) = (go(&own, &at_rest, -12e-3), go(&both, &at_rest, -12e-3));
+    let (mine, other) = (
+        go(&compression, &at_rest, -12e-3),
+        go(&both, &at_rest, -12e-3),
+    );
     assert_eq!(mine.force, other.force);
     let zero = -12e-3 - mine.force / 120e6;
     let closing = |to: f64| {
-        let open = go(&own, &mine.memory, to);
+        let open = go(&compression, &mine.memory, to);
         assert_eq!(open.force, 0.0);
-        [zero - 1e-4, -8e-3, -11e-3, -12e-3, -20e-3].map(|at| go(&own, &open.memory, at).force)
+        [zero - 1e-4, -8e-3, -11e-3, -12e-3, -20e-3]
+            .map(|at| go(&compression, &open.memory, at).force)
     };
     let (near, far) = (closing(zero + 1e-9), closing(30e-3));
     for (a, b) in near.into_iter().zip(far) {
@@ -355,7 +359,7 @@ fn pinched_struts_bear_compression_alone() {
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1);
         let to = 40e-3 * ((state >> 33) as f64 / f64::from(1_u32 << 31) - 0.6);
-        let response = go(&own, &memory, to);
+        let response = go(&compression, &memory, to);
         assert!(response.force <= 0.0);
         work += response.work;
         memory = response.memory;

@@ -13,7 +13,7 @@ fn bars_follow_steel02() {
     let numbers = |of: &Value| -> Vec<f64> {
         let list = of.as_array().expect("a list");
         list.iter()
-            .map(|own| own.as_f64().expect("a number"))
+            .map(|number| number.as_f64().expect("a number"))
             .collect()
     };
     let turns = numbers(&data["turns"]);
@@ -26,14 +26,17 @@ fn bars_follow_steel02() {
             loss: number("cR1"),
             half: number("cR2"),
         };
-        let own = Hysteresis::menegotto_pinto(modulus, strength, hardening, law).expect("sound");
+        let menegotto_pinto =
+            Hysteresis::menegotto_pinto(modulus, strength, hardening, law).expect("sound");
         let stresses = numbers(&bar["stress_pa"]);
         let mut stresses = stresses.iter();
         let (mut memory, mut from, mut worst) = (HysteresisMemory::default(), 0.0, 0.0_f64);
         for to in &turns {
             for step in 1..=steps {
                 let share = step as f64 / steps as f64;
-                memory = own.respond(&memory, from + (to - from) * share).memory;
+                memory = menegotto_pinto
+                    .respond(&memory, from + (to - from) * share)
+                    .memory;
                 if step % kept == 0 {
                     let due = stresses.next().expect("a stress");
                     worst = worst.max((memory.force() - due).abs());

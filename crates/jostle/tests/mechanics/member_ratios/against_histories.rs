@@ -22,14 +22,14 @@ fn from_histories(model: &Model, system: &System, outcome: &Outcome) -> Vec<[[f6
     for (time, row) in history.times().iter().zip(history.rows()) {
         let mut sections = row.iter();
         for (at, [building, member]) in history.members().iter().enumerate() {
-            let own = &model.analysis.members.capacities[at];
+            let capacity = &model.analysis.members.capacities[at];
             let count = system.buildings[*building].members.members[*member]
                 .sections
                 .len();
             for [axial, shear, moment, ..] in sections.by_ref().take(count) {
-                let compression =
-                    own.compression_at_rest - if own.follows_axial { *axial } else { 0.0 };
-                for (rule, found) in own.rules.iter().zip(&mut all[at]) {
+                let compression = capacity.compression_at_rest
+                    - if capacity.follows_axial { *axial } else { 0.0 };
+                for (rule, found) in capacity.rules.iter().zip(&mut all[at]) {
                     let by_shear = rule.shear.as_ref().expect("given");
                     let strength = interpolate(&by_shear.steady, compression)
                         + interpolate(&by_shear.degrading, compression);
@@ -73,13 +73,13 @@ fn compare(solver: Solver, above: f64) {
     let (system, outcome, summary) = run(&model, solver);
     let due = from_histories(&model, &system, &outcome);
     let mut exceeded = 0;
-    for (own, due) in model.analysis.members.capacities.iter().zip(due) {
+    for (capacity, due) in model.analysis.members.capacities.iter().zip(due) {
         let mut members = summary
             .buildings
             .iter()
             .flat_map(|building| &building.members);
         let member = members
-            .find(|member| member.name == own.member)
+            .find(|member| member.name == capacity.member)
             .expect("reported");
         let ratios = member.ratio.iter().chain(&member.other_ratios);
         for (ratio, [shear, bending, first]) in ratios.zip(due) {
@@ -131,19 +131,19 @@ fn compare(solver: Solver, above: f64) {
         assert_eq!(capacity.worst.ratio, worst.fold(0.0, f64::max));
         // Forces of the worst instant give the greatest ratio again: at the end of the step it may be a little less.
         let found = building.members.iter().flat_map(|member| {
-            let own = model.analysis.members.capacities.iter();
-            let own = own
+            let capacities = model.analysis.members.capacities.iter();
+            let member_capacity = capacities
                 .clone()
-                .find(|own| own.member == member.name)
+                .find(|candidate| candidate.member == member.name)
                 .expect("rated");
             member.at_worst.iter().map(move |forces| {
-                let axial = if own.follows_axial {
+                let axial = if member_capacity.follows_axial {
                     forces.axial_n
                 } else {
                     0.0
                 };
-                let compression = own.compression_at_rest - axial;
-                let rule = &own.rules[0];
+                let compression = member_capacity.compression_at_rest - axial;
+                let rule = &member_capacity.rules[0];
                 let strength = rule.shear.as_ref().expect("given").at(compression, 1.0);
                 let bending = rule.bending_ratio(compression, [forces.moment_n_m, 0.0]);
                 (forces.shear_n.abs() / strength).max(bending)
@@ -195,8 +195,11 @@ fn both_ways_agree() {
     let model = model();
     let [direct, modal] = [Solver::Riccati, Solver::Modal].map(|solver| run(&model, solver).2);
     for (a, b) in direct.buildings.iter().zip(&modal.buildings) {
-        let greatest = |own: &jostle::results::summary::BuildingSummary| {
-            own.capacity.as_ref().map(|capacity| capacity.worst.ratio)
+        let greatest = |building: &jostle::results::summary::BuildingSummary| {
+            building
+                .capacity
+                .as_ref()
+                .map(|capacity| capacity.worst.ratio)
         };
         let (Some(x), Some(y)) = (greatest(a), greatest(b)) else {
             panic!("not rated")
@@ -239,9 +242,9 @@ fn ductility_lowers_the_shear_capacity() {
     // Without degradation every ratio is that of the histories; with it none is smaller, and some are greater.
     let plain = from_histories(&model, &system, &outcome);
     let mut greater = 0;
-    for (own, due) in model.analysis.members.capacities.iter().zip(plain).take(9) {
+    for (capacity, due) in model.analysis.members.capacities.iter().zip(plain).take(9) {
         let mut members = summary.buildings[0].members.iter();
-        let Some(member) = members.find(|m| m.name == own.member && m.name.contains("column"))
+        let Some(member) = members.find(|m| m.name == capacity.member && m.name.contains("column"))
         else {
             continue;
         };

@@ -32,8 +32,12 @@ fn yielding() -> Model {
         beams: Vec::new(),
         ..FrameHinges::default()
     }));
-    for own in &mut model.analysis.members.capacities {
-        for shear in own.rules.iter_mut().filter_map(|rule| rule.shear.as_mut()) {
+    for capacity in &mut model.analysis.members.capacities {
+        for shear in capacity
+            .rules
+            .iter_mut()
+            .filter_map(|rule| rule.shear.as_mut())
+        {
             shear.by_ductility = CapacityLine::new(vec![[1.0, 1.0], [101.0, 0.0]]);
         }
     }
@@ -64,8 +68,8 @@ fn rotations(springs: &[SpringSummary], line: usize, storey: usize) -> [[f64; 2]
     ["foot", "head"].map(|end| {
         let place = format!("column {line}, storey {storey}, {end}");
         let found = springs.iter().find(|spring| spring.place == place);
-        let own = found.expect("a hinge");
-        [own.deformation_max, own.deformation_min]
+        let spring = found.expect("a hinge");
+        [spring.deformation_max, spring.deformation_min]
     })
 }
 
@@ -90,17 +94,22 @@ fn rotations_are_those_of_the_worst_end_and_side() {
             panic!("two rules")
         };
         let turned = all[greatest];
-        for (own, due) in [
+        for (acceptance, due) in [
             (plastic, turned - yield_rotation()),
             (chord, turned + moment(turned) / BEHIND),
         ] {
             assert!(
-                (own.rotation_rad - due.max(0.0)).abs() < 1e-9 * turned,
+                (acceptance.rotation_rad - due.max(0.0)).abs() < 1e-9 * turned,
                 "{}",
                 member.name
             );
             if due > 0.0 {
-                assert_eq!(own.at, ["foot", "head"][greatest / 2], "{}", member.name);
+                assert_eq!(
+                    acceptance.at,
+                    ["foot", "head"][greatest / 2],
+                    "{}",
+                    member.name
+                );
             }
         }
     }
@@ -141,7 +150,7 @@ fn shear_ratios_have_the_ductility_of_their_instant() {
         let side = |side: usize| {
             found
                 .iter()
-                .map(|own| ductility(own[side]))
+                .map(|rotation| ductility(rotation[side]))
                 .fold(0.0, f64::max)
         };
         let most = side(0).max(side(1));

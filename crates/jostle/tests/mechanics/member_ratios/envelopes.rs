@@ -36,8 +36,8 @@ fn envelopes_are_those_of_the_histories() {
     for (index, building) in summary.buildings.iter().enumerate() {
         for (place, member) in building.members.iter().enumerate() {
             let rows = &histories[&member.name].0;
-            let mut check = |own: &SectionSummary| {
-                let here = || rows.iter().filter(|(_, at, _)| *at == own.at);
+            let mut check = |section: &SectionSummary| {
+                let here = || rows.iter().filter(|(_, at, _)| *at == section.at);
                 let extreme = |kind: usize, sign: f64| {
                     let values = here().map(|(.., forces)| sign * forces[kind]);
                     sign * values.fold(f64::NEG_INFINITY, f64::max)
@@ -45,42 +45,45 @@ fn envelopes_are_those_of_the_histories() {
                 let size = |kind: usize| extreme(kind, 1.0).max(-extreme(kind, -1.0));
                 let due = [extreme(0, 1.0), extreme(0, -1.0), size(1), size(2)];
                 let found = [
-                    own.axial_max_n,
-                    own.axial_min_n,
-                    own.shear_peak_n,
-                    own.moment_peak_n_m,
+                    section.axial_max_n,
+                    section.axial_min_n,
+                    section.shear_peak_n,
+                    section.moment_peak_n_m,
                 ];
-                assert_eq!(found, due, "{} {}", member.name, own.at);
+                assert_eq!(found, due, "{} {}", member.name, section.at);
                 one_sided += usize::from(size(2) > 1.01 * extreme(2, 1.0));
             };
             member.ends.iter().for_each(&mut check);
-            for own in &member.struck {
-                check(&own.below);
-                check(&own.above);
+            for level in &member.struck {
+                check(&level.below);
+                check(&level.above);
                 let here = outcome.impacts.iter().filter(|impact| {
                     let contact = &system.contacts[impact.contact];
-                    (contact.height - own.height_m).abs() < 1e-6
+                    (contact.height - level.height_m).abs() < 1e-6
                 });
                 let force = here.clone().map(|impact| impact.peak_force);
                 assert_eq!(
-                    own.peak_force_n,
+                    level.peak_force_n,
                     force.fold(0.0, f64::max),
                     "{}",
                     member.name
                 );
-                assert!(own.impact_count > 0 && own.impact_count <= here.count());
+                assert!(level.impact_count > 0 && level.impact_count <= here.count());
                 struck += 1;
             }
             // Columns of line 3 of A alone are struck; greatest compression, shear and moment of all sections.
             let greatest = |name: &str, summary: &Summary| {
-                let own = &summary.buildings[index].members[place];
-                assert_eq!(own.name, name);
-                let sections = own.struck.iter().flat_map(|own| [&own.below, &own.above]);
+                let member = &summary.buildings[index].members[place];
+                assert_eq!(member.name, name);
+                let sections = member
+                    .struck
+                    .iter()
+                    .flat_map(|struck| [&struck.below, &struck.above]);
                 let mut all = [0.0_f64; 3];
-                for own in own.ends.iter().chain(sections) {
-                    all[0] = all[0].max(-own.axial_min_n);
-                    all[1] = all[1].max(own.shear_peak_n);
-                    all[2] = all[2].max(own.moment_peak_n_m);
+                for end in member.ends.iter().chain(sections) {
+                    all[0] = all[0].max(-end.axial_min_n);
+                    all[1] = all[1].max(end.shear_peak_n);
+                    all[2] = all[2].max(end.moment_peak_n_m);
                 }
                 all
             };

@@ -35,9 +35,9 @@ impl Recorded {
             .iter()
             .enumerate()
             .flat_map(|(at, [index, member])| {
-                let own = &system.buildings[*index].members.members[*member];
-                let column = matches!(own.place, MemberPlace::Column { .. });
-                own.sections.iter().map(move |section| match section.at {
+                let member = &system.buildings[*index].members.members[*member];
+                let column = matches!(member.place, MemberPlace::Column { .. });
+                member.sections.iter().map(move |section| match section.at {
                     SectionAt::First if column => (at, "foot"),
                     SectionAt::Last if column => (at, "head"),
                     SectionAt::First => (at, "left"),
@@ -55,8 +55,11 @@ impl Recorded {
             }
         }
         let names = history.members().iter().map(|[index, member]| {
-            let own = &system.buildings[*index];
-            format!("{}.{}", own.name, own.members.members[*member].place)
+            let building = &system.buildings[*index];
+            format!(
+                "{}.{}",
+                building.name, building.members.members[*member].place
+            )
         });
         names.zip(all).collect()
     }
@@ -68,16 +71,16 @@ impl Recorded {
     }
 }
 
-fn compression(own: &MemberCapacity, axial: f64) -> f64 {
-    own.compression_at_rest - if own.follows_axial { axial } else { 0.0 }
+fn compression(capacity: &MemberCapacity, axial: f64) -> f64 {
+    capacity.compression_at_rest - if capacity.follows_axial { axial } else { 0.0 }
 }
 
 /// First recorded instants at which shear and moment exceed the capacities of the governing rule.
-fn first_excesses(own: &MemberCapacity, recorded: &Recorded) -> [Option<f64>; 2] {
-    let rule = &own.rules[0];
+fn first_excesses(capacity: &MemberCapacity, recorded: &Recorded) -> [Option<f64>; 2] {
+    let rule = &capacity.rules[0];
     let mut first = [None; 2];
     for (time, _, [axial, shear, moment]) in &recorded.0 {
-        let carried = compression(own, *axial);
+        let carried = compression(capacity, *axial);
         let strength = rule.shear.as_ref().expect("given");
         let by_shear =
             interpolate(&strength.steady, carried) + interpolate(&strength.degrading, carried);
@@ -161,7 +164,7 @@ impl Seen {
         self.own += usize::from(count > 0);
         self.several += usize::from(count > 1);
         self.elsewhere += usize::from(count == 0 && others > 0);
-        let told = told.map(|own| (own.start_s, own.height_m, own.between.clone()));
+        let told = told.map(|told| (told.start_s, told.height_m, told.between.clone()));
         assert_eq!(told, strongest.map(|(_, place)| place), "at {time} s");
     }
 }
@@ -192,18 +195,20 @@ fn check(model: &Model) -> Seen {
         let mut worst = (0.0, String::new(), "");
         for member in &building.members {
             let mut all = model.analysis.members.capacities.iter();
-            let own = all.find(|own| own.member == member.name).expect("rated");
+            let member_capacity = all
+                .find(|capacity| capacity.member == member.name)
+                .expect("rated");
             let recorded = &histories[&member.name];
             for (ratio, rule) in member
                 .ratio
                 .iter()
                 .chain(&member.other_ratios)
-                .zip(&own.rules)
+                .zip(&member_capacity.rules)
             {
                 let [shear_at, bending_at] =
                     [ratio.shear_at.as_ref().expect("given"), &ratio.bending_at];
                 let [axial, shear, _] = recorded.at(shear_at);
-                let carried = compression(own, axial);
+                let carried = compression(member_capacity, axial);
                 check_place(
                     member,
                     shear_at,
@@ -217,7 +222,7 @@ fn check(model: &Model) -> Seen {
                 let due = shear.abs() / capacity.min(strength.limit);
                 assert!((ratio.shear.expect("given") / due - 1.0).abs() < 1e-9);
                 let [axial, _, moment] = recorded.at(bending_at);
-                let carried = compression(own, axial);
+                let carried = compression(member_capacity, axial);
                 check_place(
                     member,
                     bending_at,
@@ -238,7 +243,7 @@ fn check(model: &Model) -> Seen {
             // First excesses, by the governing rule and separately for both kinds.
             let ratio = member.ratio.as_ref().expect("rated");
             let shear_at = ratio.shear_at.as_ref().expect("given");
-            let due = first_excesses(own, recorded);
+            let due = first_excesses(member_capacity, recorded);
             assert_eq!(
                 [shear_at.exceeded_s, ratio.bending_at.exceeded_s],
                 due,
@@ -257,7 +262,12 @@ fn check(model: &Model) -> Seen {
                     worst = (value, member.name.clone(), kind);
                 }
             }
-            check_axial_failure(member, own, recorded, &outcome.peaks.floors(index));
+            check_axial_failure(
+                member,
+                member_capacity,
+                recorded,
+                &outcome.peaks.floors(index),
+            );
         }
         let capacity = building.capacity.as_ref().expect("rated");
         assert_eq!(capacity.exceeded, exceeded);
@@ -289,7 +299,12 @@ fn check(model: &Model) -> Seen {
             let then: Vec<_> = then.map(|(_, at, forces)| (*at, *forces)).collect();
             let found = member.at_worst.iter();
             let found: Vec<_> = found
-                .map(|own| (own.at, [own.axial_n, own.shear_n, own.moment_n_m]))
+                .map(|forces| {
+                    (
+                        forces.at,
+                        [forces.axial_n, forces.shear_n, forces.moment_n_m],
+                    )
+                })
                 .collect();
             assert_eq!(found, then, "{}", member.name);
         }
@@ -300,7 +315,7 @@ fn check(model: &Model) -> Seen {
 /// The greatest compression of any section, the drift at axial failure under it, and the drift of the column's own storey.
 fn check_axial_failure(
     member: &MemberSummary,
-    own: &MemberCapacity,
+    capacity: &MemberCapacity,
     recorded: &Recorded,
     floors: &[PeaksOf<'_>],
 ) {
@@ -311,7 +326,7 @@ fn check_axial_failure(
     let axial = recorded
         .0
         .iter()
-        .map(|(.., [axial, ..])| compression(own, *axial));
+        .map(|(.., [axial, ..])| compression(capacity, *axial));
     let most = axial.fold(f64::NEG_INFINITY, f64::max);
     assert!(
         (failure.compression_n - most).abs() < 1e-9 * most.abs(),
@@ -346,9 +361,9 @@ fn ratios_name_their_section_their_instant_and_the_impact() {
 #[test]
 fn the_first_rule_governs_and_either_kind_counts() {
     let mut model = model();
-    for own in &mut model.analysis.members.capacities {
-        own.rules.reverse();
-        for rule in &mut own.rules {
+    for capacity in &mut model.analysis.members.capacities {
+        capacity.rules.reverse();
+        for rule in &mut capacity.rules {
             let strength = if rule.rule == "second" { 0.7 } else { 0.5 };
             if let Some(shear) = &mut rule.shear {
                 shear.limit *= 0.5 * strength;
@@ -360,10 +375,15 @@ fn the_first_rule_governs_and_either_kind_counts() {
         }
     }
     let (_, _, summary) = run(&model, Solver::Riccati);
-    let members = || summary.buildings.iter().flat_map(|own| &own.members);
+    let members = || {
+        summary
+            .buildings
+            .iter()
+            .flat_map(|building| &building.members)
+    };
     let by_shear_alone = members()
-        .filter_map(|own| own.ratio.as_ref())
-        .filter(|own| own.bending < 1.0 && own.shear.is_some_and(|shear| shear > 1.0));
+        .filter_map(|member| member.ratio.as_ref())
+        .filter(|ratios| ratios.bending < 1.0 && ratios.shear.is_some_and(|shear| shear > 1.0));
     assert!(by_shear_alone.count() > 2);
     assert!(
         members()
@@ -389,9 +409,9 @@ fn modal_runs_keep_the_forces_of_the_worst_step() {
                 let all = histories[&member.name].0.iter();
                 all.fold(0.0_f64, |most, (.., forces)| most.max(forces[kind].abs()))
             };
-            for (own, (_, at, due)) in member.at_worst.iter().zip(then) {
-                assert_eq!(own.at, *at);
-                let found = [own.axial_n, own.shear_n, own.moment_n_m];
+            for (forces, (_, at, due)) in member.at_worst.iter().zip(then) {
+                assert_eq!(forces.at, *at);
+                let found = [forces.axial_n, forces.shear_n, forces.moment_n_m];
                 for kind in 0..3 {
                     let off = (found[kind] - due[kind]).abs();
                     assert!(off <= 1e-9 * most(kind), "{} {at}: {off}", member.name);
@@ -408,7 +428,7 @@ fn impacts_named_are_those_of_the_building() {
         let mut model = model();
         model.buildings.push(building("C", 2, 4.5, 2e8));
         let more = capacities("C", 2);
-        let names = more.iter().map(|own| own.member.clone());
+        let names = more.iter().map(|more| more.member.clone());
         model.analysis.members.histories.extend(names);
         model.analysis.members.capacities.extend(more);
         let law = model.gaps[0].law;

@@ -71,7 +71,7 @@ fn model(structure: Structure, damping: Damping, base: Base, solver: Solver) -> 
 #[test]
 fn on_a_line_a_base_is_that_of_one_plane() {
     let (storeys, properties, side) = (3, [1.5e5, 1.2e8], 12.0);
-    let own = base();
+    let base = base();
     let motion = shaking("line", 4.0, 1.0);
     for (solver, damping, p_delta) in [
         (Solver::Riccati, [0.2, 2e-3], false),
@@ -80,7 +80,7 @@ fn on_a_line_a_base_is_that_of_one_plane() {
         let [alpha, beta] = damping;
         let damping = Damping::Rayleigh { alpha, beta };
         let shear = Structure::Shear(equal_storeys(storeys, properties));
-        let foundation = Foundation::rectangle(side, side, own.mass);
+        let foundation = Foundation::rectangle(side, side, base.mass);
         let flat_base = Base {
             foundation: Some(foundation),
             ..Base::default()
@@ -108,7 +108,7 @@ fn on_a_line_a_base_is_that_of_one_plane() {
                 .map(|[x, y]| [cos * x - sin * y, sin * x + cos * y])
                 .collect();
             let tiers = Structure::Tiers(tiers(storeys, properties, &plan));
-            let mut deep = model(tiers, damping.clone(), own, solver);
+            let mut deep = model(tiers, damping.clone(), base, solver);
             deep.buildings[0].gravity = gravity;
             let (system, deep) = run(&deep, &from(motion.clone(), angle, None));
             for floor in 1..=storeys {
@@ -168,8 +168,8 @@ fn a_base_that_sways_is_that_of_one_plane() {
     ];
     let motion = shaking("line", 4.0, 1.0);
     let [flat, deep] = structures.map(|structure| {
-        let own = model(structure, damping.clone(), base, Solver::Riccati);
-        run(&own, &motion).1
+        let model = model(structure, damping.clone(), base, Solver::Riccati);
+        run(&model, &motion).1
     });
     for floor in 1..=storeys {
         let [a, b] = [&flat, &deep].map(|run| column(run, Column::displacement(0, floor)));
@@ -187,9 +187,9 @@ fn a_base_that_sways_is_that_of_one_plane() {
 #[test]
 fn springs_of_a_base_act_in_series() {
     let plan = rectangle(0.0, 0.0, 14.0, 9.0);
-    let own = tiers(1, [2e5, 1.5e8], &plan);
-    let (mass, polar) = (own.floors[0].mass, own.floors[0].polar_mass);
-    let torsion = own.storeys[0].stiffness[2];
+    let tiers = tiers(1, [2e5, 1.5e8], &plan);
+    let (mass, polar) = (tiers.floors[0].mass, tiers.floors[0].polar_mass);
+    let torsion = tiers.storeys[0].stiffness[2];
     let across = AcrossBase {
         horizontal_stiffness: Some(2.5e8),
         rotational_stiffness: Some(3e9),
@@ -203,7 +203,7 @@ fn springs_of_a_base_act_in_series() {
         ..Base::default()
     };
     let system = assembled(&model(
-        Structure::Tiers(own),
+        Structure::Tiers(tiers),
         UNDAMPED,
         base,
         Solver::Riccati,
@@ -231,12 +231,12 @@ fn springs_of_a_base_act_in_series() {
 #[test]
 fn an_eccentric_building_has_the_strain_of_its_springs() {
     let plan = rectangle(0.0, 0.0, 14.0, 9.0);
-    let mut own = tiers(2, [2e5, 1.5e8], &plan);
-    own.floors[0].centre = [8.0, 4.0];
-    own.floors[1].centre = [6.5, 5.5];
-    own.storeys[0].centre = [5.0, 3.0];
-    own.storeys[1].centre = [9.0, 6.0];
-    own.storey_heights = vec![4.0, 3.2];
+    let mut tiers = tiers(2, [2e5, 1.5e8], &plan);
+    tiers.floors[0].centre = [8.0, 4.0];
+    tiers.floors[1].centre = [6.5, 5.5];
+    tiers.storeys[0].centre = [5.0, 3.0];
+    tiers.storeys[1].centre = [9.0, 6.0];
+    tiers.storey_heights = vec![4.0, 3.2];
     let base = Base {
         across: Some(AcrossBase {
             horizontal_stiffness: Some(2.5e8),
@@ -245,7 +245,7 @@ fn an_eccentric_building_has_the_strain_of_its_springs() {
         }),
         ..base()
     };
-    let structure = Structure::Tiers(own.clone());
+    let structure = Structure::Tiers(tiers.clone());
     let system = assembled(&model(structure, UNDAMPED, base, Solver::Riccati));
     let building = &system.buildings[0];
     let equations = &building.equations;
@@ -288,9 +288,9 @@ fn an_eccentric_building_has_the_strain_of_its_springs() {
             [x - turned * arm[1], y + turned * arm[0], turned]
         };
         let mut strain = 0.0;
-        for (storey, spring) in own.storeys.iter().enumerate() {
+        for (storey, spring) in tiers.storeys.iter().enumerate() {
             let (lower, upper) = (at(storey, spring.centre), at(storey + 1, spring.centre));
-            let height = own.storey_heights[storey];
+            let height = tiers.storey_heights[storey];
             let leant = [height * u[rocking[0]], height * u[rocking[1]], 0.0];
             for axis in 0..3 {
                 let deformed = upper[axis] - lower[axis] - leant[axis];
@@ -320,8 +320,8 @@ fn an_eccentric_building_has_the_strain_of_its_springs() {
 /// An eccentric building on springs moves alike by its modes and by direct steps.
 #[test]
 fn modes_and_direct_steps_agree() {
-    let mut own = tiers(3, [1.5e5, 1.2e8], &rectangle(0.0, 0.0, 14.0, 9.0));
-    for storey in &mut own.storeys {
+    let mut tiers = tiers(3, [1.5e5, 1.2e8], &rectangle(0.0, 0.0, 14.0, 9.0));
+    for storey in &mut tiers.storeys {
         storey.centre = [8.2, 3.9];
     }
     let base = Base {
@@ -340,9 +340,14 @@ fn modes_and_direct_steps_agree() {
         Some(shaking("other", 5.0, 0.7)),
     );
     let runs = [Solver::Modal, Solver::Riccati].map(|solver| {
-        let mut own = model(Structure::Tiers(own.clone()), damping.clone(), base, solver);
-        own.analysis.step = Some(2.5e-4);
-        run(&own, &motion).1
+        let mut model = model(
+            Structure::Tiers(tiers.clone()),
+            damping.clone(),
+            base,
+            solver,
+        );
+        model.analysis.step = Some(2.5e-4);
+        run(&model, &motion).1
     });
     for floor in 1..=3 {
         for place in [
@@ -370,8 +375,8 @@ fn modes_and_direct_steps_agree() {
 /// A base that is stiff in all its motions is no base.
 #[test]
 fn a_stiff_base_is_a_fixed_one() {
-    let mut own = tiers(2, [1.5e5, 1.2e8], &rectangle(0.0, 0.0, 14.0, 9.0));
-    own.storeys[1].centre = [8.2, 3.9];
+    let mut tiers = tiers(2, [1.5e5, 1.2e8], &rectangle(0.0, 0.0, 14.0, 9.0));
+    tiers.storeys[1].centre = [8.2, 3.9];
     let stiff = Base {
         horizontal_stiffness: Some(1e15),
         rotational_stiffness: Some(1e18),
@@ -393,7 +398,7 @@ fn a_stiff_base_is_a_fixed_one() {
     let damping = Damping::ratio(0.05, [1, 2]);
     let periods = |base: Base| {
         let system = assembled(&model(
-            Structure::Tiers(own.clone()),
+            Structure::Tiers(tiers.clone()),
             damping.clone(),
             base,
             Solver::Riccati,
@@ -402,7 +407,7 @@ fn a_stiff_base_is_a_fixed_one() {
         let mut values: Vec<f64> = building
             .modes
             .iter()
-            .map(|own| own.circular_frequency)
+            .map(|mode| mode.circular_frequency)
             .collect();
         values.truncate(6);
         values.extend([building.equations.alpha, building.equations.beta]);
@@ -410,15 +415,18 @@ fn a_stiff_base_is_a_fixed_one() {
     };
     let fixed = periods(Base::default());
     for base in [stiff, swaying, twisting, rocking] {
-        for (own, fixed) in periods(base).iter().zip(&fixed) {
-            assert!((own / fixed - 1.0).abs() < 1e-5, "{own} {fixed} {base:?}");
+        for (period, fixed) in periods(base).iter().zip(&fixed) {
+            assert!(
+                (period / fixed - 1.0).abs() < 1e-5,
+                "{period} {fixed} {base:?}"
+            );
         }
     }
 }
 
 #[test]
 fn what_a_base_in_plan_cannot_have_is_refused() {
-    let own = Structure::Tiers(tiers(1, [1.5e5, 1.2e8], &rectangle(0.0, 0.0, 14.0, 9.0)));
+    let tiers = Structure::Tiers(tiers(1, [1.5e5, 1.2e8], &rectangle(0.0, 0.0, 14.0, 9.0)));
     let mut half = base();
     half.across = Some(AcrossBase {
         horizontal_stiffness: Some(1e8),
@@ -439,7 +447,7 @@ fn what_a_base_in_plan_cannot_have_is_refused() {
         (negative, "base.torsional_damping"),
         (loose, "base.horizontal_damping"),
     ] {
-        let faults = model(own.clone(), UNDAMPED, base, Solver::Riccati).check();
+        let faults = model(tiers.clone(), UNDAMPED, base, Solver::Riccati).check();
         let faults = faults.expect_err(field);
         assert!(
             faults.iter().any(|fault| fault.path.ends_with(field)),

@@ -49,21 +49,21 @@ fn fibres(leans: bool) -> ColumnFibres {
 }
 
 /// The same, seen from the other side.
-fn mirrored(own: &ColumnFibres) -> ColumnFibres {
-    let fibres = own.fibres.iter().rev().map(|fibre| Fibre {
+fn mirrored(column_fibres: &ColumnFibres) -> ColumnFibres {
+    let fibres = column_fibres.fibres.iter().rev().map(|fibre| Fibre {
         at: fibre.at.map(|at| -at),
         ..*fibre
     });
     ColumnFibres {
         fibres: fibres.collect(),
-        ..own.clone()
+        ..column_fibres.clone()
     }
 }
 
 /// Fibres in every column of a frame that shortens and stands under its weight.
-fn model(mut own: Frame, fibres: &ColumnFibres) -> Model {
-    own.axial.columns_flexible = true;
-    let places = own.all_columns().map(|(place, _)| place);
+fn model(mut frame: Frame, fibres: &ColumnFibres) -> Model {
+    frame.axial.columns_flexible = true;
+    let places = frame.all_columns().map(|(place, _)| place);
     let hinges = FrameHinges {
         fibres: places.map(|place| (place, fibres.clone())).collect(),
         ..FrameHinges::default()
@@ -79,7 +79,7 @@ fn model(mut own: Frame, fibres: &ColumnFibres) -> Model {
                 alpha: 0.4,
                 beta: 1e-3,
             },
-            ..framed("A", own)
+            ..framed("A", frame)
         }],
         ..Model::default()
     }
@@ -87,9 +87,9 @@ fn model(mut own: Frame, fibres: &ColumnFibres) -> Model {
 
 /// Two storeys; spans differ, so that the mirror image is another frame.
 fn two_storeys() -> Frame {
-    let mut own = frame(2, &[6.0, 4.5]);
-    own.floor_load = vec![300e3, 200e3];
-    own
+    let mut frame = frame(2, &[6.0, 4.5]);
+    frame.floor_load = vec![300e3, 200e3];
+    frame
 }
 
 /// In fixed steps: what is compared differs by rounding alone.
@@ -117,7 +117,9 @@ fn answers((system, outcome): &(System, Outcome)) -> [Vec<[f64; 2]>; 3] {
     });
     let forces = |kind: usize| {
         let sections = system.buildings[0].members.sections.iter();
-        sections.map(|own| outcome.members[0][own[kind]]).collect()
+        sections
+            .map(|section| outcome.members[0][section[kind]])
+            .collect()
     };
     [moved.collect(), forces(0), forces(1)]
 }
@@ -134,17 +136,18 @@ fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64, what: &str) {
 #[test]
 fn both_solvers_agree_while_bars_yield_and_concrete_crushes() {
     let [a, b] = [Solver::Riccati, Solver::Stiffness].map(|solver| {
-        let mut own = model(two_storeys(), &fibres(true));
-        own.analysis.solver = Some(solver);
-        shaken(&own, 1.0)
+        let mut model = model(two_storeys(), &fibres(true));
+        model.analysis.solver = Some(solver);
+        shaken(&model, 1.0)
     });
     let springs = &a.0.buildings[0].equations.springs;
     let reached = |is_concrete: bool| {
-        let own = springs.iter().zip(&a.1.state.springs);
-        let own = own.filter(|(spring, _)| {
+        let springs = springs.iter().zip(&a.1.state.springs);
+        let pairs = springs.filter(|(spring, _)| {
             matches!(spring.hysteresis.rule(), HysteresisRule::Concrete(_)) == is_concrete
         });
-        own.filter(|(spring, memory)| spring.hysteresis.stage(memory) == Stage::Yielded)
+        pairs
+            .filter(|(spring, memory)| spring.hysteresis.stage(memory) == Stage::Yielded)
             .count()
     };
     let (yielded, crushed) = (reached(false), reached(true));
@@ -160,12 +163,12 @@ fn both_solvers_agree_while_bars_yield_and_concrete_crushes() {
 /// The mirror image of a building answers the mirror image of a motion alike.
 #[test]
 fn a_mirrored_frame_mirrors_its_answer() {
-    let own = shaken(&model(two_storeys(), &fibres(true)), 1.0);
+    let original = shaken(&model(two_storeys(), &fibres(true)), 1.0);
     let mut image = two_storeys();
     image.spans.reverse();
     image.beam_segments.reverse();
     let image = shaken(&model(image, &mirrored(&fibres(true))), -1.0);
-    let ([floors, axial, moments], [a, b, c]) = (answers(&own), answers(&image));
+    let ([floors, axial, moments], [a, b, c]) = (answers(&original), answers(&image));
     let exchanged = |all: &[[f64; 2]]| -> Vec<[f64; 2]> {
         all.iter().map(|[most, least]| [-least, -most]).collect()
     };
@@ -211,7 +214,8 @@ fn halves_of_fibres_are_the_whole() {
         fibres: halved,
         ..whole.clone()
     };
-    let [a, b] = [whole, halves].map(|own| answers(&shaken(&model(two_storeys(), &own), 1.0)));
+    let [a, b] = [whole, halves]
+        .map(|column_fibres| answers(&shaken(&model(two_storeys(), &column_fibres), 1.0)));
     for (a, b) in a.iter().zip(&b) {
         agree(a, b, 1e-6, "halves");
     }
@@ -222,7 +226,7 @@ fn halves_of_fibres_are_the_whole() {
 fn elastic_fibres_at_the_feet_are_springs_of_a_base() {
     let (stiffness, places) = (2e9, [-0.2, -0.05, 0.1, 0.15]);
     let spring = Hysteresis::elastic(stiffness).expect("sound");
-    let own = ColumnFibres {
+    let fibres = ColumnFibres {
         length: 0.3,
         at_ends: [true, false],
         fibres: places
@@ -235,7 +239,7 @@ fn elastic_fibres_at_the_feet_are_springs_of_a_base() {
             .collect(),
         limits: BTreeMap::new(),
     };
-    let mut on_fibres = model(frame(1, &[5.0]), &own);
+    let mut on_fibres = model(frame(1, &[5.0]), &fibres);
     on_fibres.buildings[0].damping = Damping::Rayleigh {
         alpha: 0.5,
         beta: 0.0,
@@ -250,8 +254,8 @@ fn elastic_fibres_at_the_feet_are_springs_of_a_base() {
         ..Base::default()
     };
     on_base.analysis.solver = Some(Solver::Riccati);
-    let [a, b] = [on_fibres, on_base].map(|own| {
-        let (_, outcome) = shaken(&own, 1.0);
+    let [a, b] = [on_fibres, on_base].map(|model| {
+        let (_, outcome) = shaken(&model, 1.0);
         let floor = &outcome.peaks.floors(0)[0];
         [
             floor.displacement_max().value,
@@ -269,9 +273,9 @@ fn loads_of_floors_weigh_and_do_not_sway() {
     heavy.floor_mass = vec![30e3; 3];
     loaded.floor_mass = vec![10e3; 3];
     loaded.floor_load = vec![20e3 * STANDARD_GRAVITY; 3];
-    let [a, b] = [heavy, loaded.clone()].map(|own| {
+    let [a, b] = [heavy, loaded.clone()].map(|heavy| {
         let system = assembled(&Model {
-            buildings: vec![framed("A", own)],
+            buildings: vec![framed("A", heavy)],
             ..Model::default()
         });
         let mass = system.buildings[0].equations.total_mass();
@@ -285,9 +289,9 @@ fn loads_of_floors_weigh_and_do_not_sway() {
     // Without weight in the run they change nothing.
     let mut light = loaded.clone();
     light.floor_load.clear();
-    let period = |own: Frame| {
+    let period = |frame: Frame| {
         let system = assembled(&Model {
-            buildings: vec![framed("A", own)],
+            buildings: vec![framed("A", frame)],
             ..Model::default()
         });
         let mode = system.buildings[0].lateral_modes().next().expect("a mode");
@@ -299,18 +303,18 @@ fn loads_of_floors_weigh_and_do_not_sway() {
 /// Limits are passed where histories of the fibres first are as far: those below the greatest strain, and none beyond it.
 #[test]
 fn strains_are_judged_when_fibres_reach_them() {
-    let own = fibres(true);
+    let column_fibres = fibres(true);
     let judged = |limits: [f64; 3]| {
         let names = [
             FibreLimit::Spalling,
             FibreLimit::Buckling,
             FibreLimit::Fracture,
         ];
-        let own = ColumnFibres {
+        let fibres = ColumnFibres {
             limits: names.into_iter().zip(limits).collect(),
-            ..own.clone()
+            ..column_fibres.clone()
         };
-        let model = model(two_storeys(), &own);
+        let model = model(two_storeys(), &fibres);
         let (system, outcome) = shaken(&model, 1.0);
         let motion = fading("along", 9.0, [1.8, 3.0], 150);
         let mut summary = Summary::new(&Run {
@@ -328,7 +332,7 @@ fn strains_are_judged_when_fibres_reach_them() {
     let springs = outcome.spring_history.as_ref().expect("recorded");
     let history = outcome.history.as_ref().expect("recorded");
     let times = history.column(jostle::Column::TIME).expect("recorded");
-    let count = own.fibres.len();
+    let count = column_fibres.fibres.len();
     let mut passed = 0;
     for (number, section) in sections.iter().enumerate() {
         for limit in &section.limits {
@@ -336,15 +340,16 @@ fn strains_are_judged_when_fibres_reach_them() {
                 FibreLimit::Spalling => (FibreMaterial::Cover, -1.0),
                 _ => (FibreMaterial::Bar, 1.0),
             };
-            let fibres = own.fibres.iter().enumerate();
+            let fibres = column_fibres.fibres.iter().enumerate();
             let fibres = fibres.filter(|(_, fibre)| fibre.material == material);
             let rows = fibres.map(|(fibre, _)| {
-                let own = springs.of_spring(number * count + fibre);
-                own.map(|[moved, _]| sign * f64::from(moved) / 0.35)
+                let spring = springs.of_spring(number * count + fibre);
+                spring
+                    .map(|[moved, _]| sign * f64::from(moved) / 0.35)
                     .collect()
             });
             let rows: Vec<Vec<f64>> = rows.collect();
-            let strain = |row: usize| rows.iter().map(|own| own[row]).fold(0.0, f64::max);
+            let strain = |row: usize| rows.iter().map(|strains| strains[row]).fold(0.0, f64::max);
             let first = (0..times.len()).find(|row| strain(*row) >= limit.strain_limit);
             let greatest = (0..times.len()).map(strain).fold(0.0, f64::max);
             close(limit.strain, greatest, greatest, 2e-3, "greatest strain");
@@ -359,10 +364,13 @@ fn strains_are_judged_when_fibres_reach_them() {
     // A thousandth below and above the greatest strains, nothing else moves.
     let limits = &sections[0].limits;
     for (share, reached) in [(0.999, true), (1.001, false)] {
-        let [cover, bars] = [0, 1].map(|own: usize| share * limits[own].strain);
+        let [cover, bars] = [0, 1].map(|index: usize| share * limits[index].strain);
         let (again, same) = judged([cover, bars, bars]);
         assert_eq!(same.state, outcome.state);
         let all = again[0].limits.iter();
-        assert!(all.clone().all(|own| own.passed_s.is_some() == reached));
+        assert!(
+            all.clone()
+                .all(|column_fibres| column_fibres.passed_s.is_some() == reached)
+        );
     }
 }

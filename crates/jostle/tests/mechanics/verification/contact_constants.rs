@@ -79,7 +79,7 @@ fn solved(model: &jostle::Model, solver: Solver, tolerance: f64) -> (System, Out
 /// The dashpot that a coefficient of restitution gives makes the same run, bit by bit.
 #[test]
 fn a_given_dashpot_is_that_of_its_coefficient() {
-    for (own, kind) in [
+    for (dashpot_law, kind) in [
         (DashpotLaw::Kelvin, LawKind::Kelvin),
         (DashpotLaw::KelvinNoTension, LawKind::KelvinNoTension),
     ] {
@@ -88,7 +88,10 @@ fn a_given_dashpot_is_that_of_its_coefficient() {
         let ForceLaw::Kelvin { damping, .. } = known.contacts[0].law else {
             panic!("a Kelvin law");
         };
-        let dashpot = LawKind::Dashpot(Dashpot { law: own, damping });
+        let dashpot = LawKind::Dashpot(Dashpot {
+            law: dashpot_law,
+            damping,
+        });
         let given = assembled(&row(buildings(), 0.02, law(dashpot, 1.0)));
         let motion = shaking(3.0);
         for solver in [Solver::Modal, Solver::Riccati, Solver::Series] {
@@ -98,8 +101,8 @@ fn a_given_dashpot_is_that_of_its_coefficient() {
             };
             let (one, other) = (of(&known), of(&given));
             assert!(one.impacts.len() > 3);
-            assert_eq!(one.impacts, other.impacts, "{own:?}, {solver:?}");
-            assert_eq!(one.state, other.state, "{own:?}, {solver:?}");
+            assert_eq!(one.impacts, other.impacts, "{dashpot_law:?}, {solver:?}");
+            assert_eq!(one.state, other.state, "{dashpot_law:?}, {solver:?}");
         }
         let e = given.contacts[0].equivalent_restitution(&law(dashpot, 1.0));
         assert!((e.expect("a dashpot") - 0.6).abs() < 1e-12, "{e:?}");
@@ -163,14 +166,14 @@ fn faces_of_plans_share_the_constants() {
         let (model, motion) = around_a_corner(whole);
         let (system, reference) = run_in_space(&model, &motion, by(Solver::Modal, 1e-6));
         let of_face = |face: usize| {
-            let own = system.contacts.iter();
-            own.filter(move |own| own.plan.is_some_and(|place| place.face == face))
+            let contacts = system.contacts.iter();
+            contacts.filter(move |contact| contact.plan.is_some_and(|place| place.face == face))
         };
         let first: Vec<f64> = of_face(0)
-            .map(|own| match own.law {
+            .map(|face| match face.law {
                 ForceLaw::Kelvin { damping, .. } => damping / 1.5e6,
-                ForceLaw::Bilinear(own) => own.second_stiffness / 9e7,
-                ForceLaw::Crushing(own) => own.force / 4e5,
+                ForceLaw::Bilinear(bilinear) => bilinear.second_stiffness / 9e7,
+                ForceLaw::Crushing(crushing) => crushing.force / 4e5,
                 ref other => panic!("{other:?}"),
             })
             .collect();
@@ -191,7 +194,7 @@ fn faces_of_plans_share_the_constants() {
                     .collect()
             };
             let (one, other) = (crushed(&reference), crushed(&direct));
-            let most = one.iter().fold(0.0_f64, |most, own| most.max(*own));
+            let most = one.iter().fold(0.0_f64, |most, value| most.max(*value));
             assert!(most > 1e-3, "{most}");
             for (a, b) in one.iter().zip(&other) {
                 assert!((a - b).abs() < 1e-3 * most, "{a}, {b}");
@@ -271,11 +274,11 @@ fn crush_alike(crush: Crush) {
     let (system, reference) = solved(&model, Solver::Modal, 1e-6);
     assert!(reference.impacts.len() > 5);
     for contact in 0..system.contacts.len() {
-        let own = reference
+        let impacts = reference
             .impacts
             .iter()
-            .filter(|own| own.contact == contact);
-        let hardest = own.fold(0.0, |most: f64, own| most.max(own.peak_force));
+            .filter(|impact| impact.contact == contact);
+        let hardest = impacts.fold(0.0, |most: f64, impact| most.max(impact.peak_force));
         let due = depth(crush, own_law.stiffness, hardest);
         let found = reference.state.crushed_depth(contact);
         assert!(
@@ -294,11 +297,12 @@ fn crush_alike(crush: Crush) {
         assert!(balance < 1e-6, "{solver:?}: {balance}");
         assert_eq!(reference.impacts.len(), other.impacts.len(), "{solver:?}");
         for contact in 0..system.contacts.len() {
-            let [one, two] = [&reference, &other].map(|own| own.state.crushed_depth(contact));
+            let [one, two] =
+                [&reference, &other].map(|outcome| outcome.state.crushed_depth(contact));
             assert!((one / two - 1.0).abs() < 1e-4, "{solver:?}: {one}, {two}");
         }
     }
-    let taken = reference.impacts.iter().map(|own| own.dissipated);
+    let taken = reference.impacts.iter().map(|impact| impact.dissipated);
     let taken: f64 = taken.sum();
     assert!(
         (reference.energy.contact / taken - 1.0).abs() < 1e-9,
@@ -316,8 +320,11 @@ fn every_contact_crushes_by_itself() {
         .map(|contact| outcome.state.crushed_depth(contact))
         .collect();
     for (contact, found) in depths.iter().enumerate() {
-        let own = outcome.impacts.iter().filter(|own| own.contact == contact);
-        let hardest = own.fold(0.0, |most: f64, own| most.max(own.peak_force));
+        let impacts = outcome
+            .impacts
+            .iter()
+            .filter(|impact| impact.contact == contact);
+        let hardest = impacts.fold(0.0, |most: f64, impact| most.max(impact.peak_force));
         let due = depth(CRUSH, crushing().stiffness, hardest);
         assert!(
             (found - due).abs() <= 1e-6 * due,

@@ -67,7 +67,7 @@ fn formulas_make_the_runs_of_their_laws() {
             let plan = planned(&system, &motion, &by(solver, tolerance));
             run(&system, &motion, &plan)
         };
-        let own = ContactLaw {
+        let built_in = ContactLaw {
             stiffness,
             ..law(kind, E)
         };
@@ -76,7 +76,7 @@ fn formulas_make_the_runs_of_their_laws() {
             (Solver::Series, 1e-6),
             (Solver::Riccati, 1e-4),
         ] {
-            let one = of(own, solver, tolerance);
+            let one = of(built_in, solver, tolerance);
             let other = of(written(text, stiffness), solver, tolerance);
             assert!(one.impacts.len() > 3);
             let error = impacts_apart(&one, &other);
@@ -89,11 +89,11 @@ fn formulas_make_the_runs_of_their_laws() {
 #[test]
 fn faces_of_plans_share_a_formula() {
     for (kind, text, stiffness) in WRITTEN {
-        let own = ContactLaw {
+        let built_in = ContactLaw {
             stiffness,
             ..law(kind, E)
         };
-        let [one, other] = [own, written(text, stiffness)].map(|law| {
+        let [one, other] = [built_in, written(text, stiffness)].map(|law| {
             let (model, motion) = around_a_corner(law);
             run_in_space(&model, &motion, by(Solver::Modal, 1e-6)).1
         });

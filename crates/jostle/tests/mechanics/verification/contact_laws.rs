@@ -237,10 +237,10 @@ fn impacts_at_several_floors_are_seen_together() {
     let outcome = run(&system, &shaking(4.0), &steps(1e-3, 4));
     let mut contacts: Vec<_> = (0..system.contacts.len())
         .map(|index| {
-            let own = outcome.impacts.iter().filter(|i| i.contact == index);
-            let mut own: Vec<_> = own.collect();
-            own.sort_by(|a, b| a.start.total_cmp(&b.start));
-            counted(own, 0.0)
+            let impacts = outcome.impacts.iter().filter(|i| i.contact == index);
+            let mut impacts: Vec<_> = impacts.collect();
+            impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+            counted(impacts, 0.0)
         })
         .collect();
     let poundings = find_simultaneous(&mut contacts);

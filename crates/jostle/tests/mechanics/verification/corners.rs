@@ -147,7 +147,7 @@ fn passing_corners_have_two_normals_and_edges_have_ends() {
     let normals: Vec<PlanPoint> = system
         .contacts
         .iter()
-        .map(|own| own.plan.unwrap().normal)
+        .map(|contact| contact.plan.unwrap().normal)
         .collect();
     assert_eq!(normals, [[1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]);
     let ends: Vec<(usize, f64)> = system
@@ -165,9 +165,9 @@ fn passing_corners_have_two_normals_and_edges_have_ends() {
         outcome
             .impacts
             .iter()
-            .filter(move |own| own.contact == contact)
+            .filter(move |impact| impact.contact == contact)
     };
-    let off = |contact: usize| of(contact).filter(|own| own.sliding.slid_off).count();
+    let off = |contact: usize| of(contact).filter(|impact| impact.sliding.slid_off).count();
     assert!(of(0).count() + of(1).count() > 3 && off(0) + off(1) > 0);
     assert!(of(2).count() > 5, "{}", of(2).count());
     // One contact with two normals never presses along both.
@@ -187,9 +187,12 @@ fn listed(outcome: &Outcome, system: &System) -> Vec<Impact> {
 #[test]
 fn turned_and_mirrored_sites_have_the_same_corners() {
     for friction in [0.0, 0.3] {
-        let (system, own) = corners(STRAIGHT, friction, false);
-        let own = listed(&own, &system);
-        let most = own.iter().map(|own| own.peak_force).fold(0.0, f64::max);
+        let (system, outcome) = corners(STRAIGHT, friction, false);
+        let impacts = listed(&outcome, &system);
+        let most = impacts
+            .iter()
+            .map(|impact| impact.peak_force)
+            .fold(0.0, f64::max);
         for (what, site, swapped) in [
             (
                 "turned by 30°",
@@ -219,8 +222,8 @@ fn turned_and_mirrored_sites_have_the_same_corners() {
         ] {
             let (system, other) = corners(site, friction, swapped);
             let other = listed(&other, &system);
-            assert_eq!(own.len(), other.len(), "{what}, friction {friction}");
-            for (a, b) in own.iter().zip(&other) {
+            assert_eq!(impacts.len(), other.len(), "{what}, friction {friction}");
+            for (a, b) in impacts.iter().zip(&other) {
                 assert!((a.start - b.start).abs() < 1e-8, "{what}: {a:?} {b:?}");
                 assert!(
                     (a.peak_force - b.peak_force).abs() < 1e-7 * most,
@@ -267,7 +270,7 @@ fn an_edge_is_felt_as_far_as_it_reaches() {
     let first = short
         .impacts
         .iter()
-        .position(|own| own.sliding.slid_off)
+        .position(|impact| impact.sliding.slid_off)
         .expect("it slides off");
     for (a, b) in short.impacts[..first].iter().zip(&long.impacts) {
         assert!(

@@ -64,8 +64,8 @@ fn storeys_that_never_yield_are_damped_like_elastic_ones() {
     assert!(elastic.impacts.len() > 1);
     let elastic = peaks(&elastic);
     let off = |damping: Option<ProportionalDamping>, solver: Option<Solver>| {
-        let own = peaks(&outcome(&pair(Some(damping)), solver, tolerance).1);
-        let off = own.iter().zip(&elastic).map(|(a, b)| (a / b - 1.0).abs());
+        let peaks = peaks(&outcome(&pair(Some(damping)), solver, tolerance).1);
+        let off = peaks.iter().zip(&elastic).map(|(a, b)| (a / b - 1.0).abs());
         off.fold(0.0, f64::max)
     };
     for solver in [None, Some(Solver::Riccati), Some(Solver::Stiffness)] {
@@ -147,20 +147,20 @@ fn damping_acts_on_what_has_yielded_as_stated() {
         let known = by_runge_and_kutta(&motion, properties, damping);
         assert!(known[0] > 3.0 * limit, "it yields");
         for (solver, allowed) in [(None, 2e-5), (Some(Solver::Riccati), 2e-5)] {
-            let own = outcome(&model, solver, 1e-5).1;
-            let floor = &own.peaks.floor(0, 1);
+            let outcome = outcome(&model, solver, 1e-5).1;
+            let floor = &outcome.peaks.floor(0, 1);
             let moved = floor
                 .displacement_max()
                 .value
                 .max(-floor.displacement_min().value);
-            for (own, known) in [moved, floor.total_acceleration()].iter().zip(known) {
-                let off = (own / known - 1.0).abs();
+            for (got, known) in [moved, floor.total_acceleration()].iter().zip(known) {
+                let off = (got / known - 1.0).abs();
                 assert!(
                     off < allowed,
-                    "{damping:?} by {solver:?}: {own} for {known}, {off:.1e}"
+                    "{damping:?} by {solver:?}: {got} for {known}, {off:.1e}"
                 );
             }
-            let lost = own.energy.imbalance();
+            let lost = outcome.energy.imbalance();
             assert!(lost < 1e-4, "{damping:?} by {solver:?}: {lost:.1e}");
         }
         found.push(known[0]);
@@ -194,9 +194,9 @@ fn direct_steps_end_where_damping_jumps() {
     let known = peaks(&outcome(&model, None, 1e-6).1);
     let error = |outcome: &Outcome| {
         let kinds = peaks(outcome).into_iter().zip(&known);
-        let errors = kinds.map(|(own, known)| {
+        let errors = kinds.map(|(got, known)| {
             let greatest = known.iter().fold(0.0_f64, |most, v| most.max(*v));
-            let apart = own.iter().zip(known).map(|(a, b)| (a - b).abs());
+            let apart = got.iter().zip(known).map(|(a, b)| (a - b).abs());
             apart.fold(0.0, f64::max) / greatest
         });
         errors.fold(0.0, f64::max)

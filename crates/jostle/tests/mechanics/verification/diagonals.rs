@@ -50,22 +50,23 @@ fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagon
 
 /// Three storeys and two bays: braces in one, a panel in the other of the upper storeys.
 fn braced(elastic: bool) -> Frame {
-    let mut own = frame(3, &[6.0, 4.5]);
+    let mut frame = frame(3, &[6.0, 4.5]);
     for storey in 1..=3 {
         let rise = [Rise::Right, Rise::Left][storey % 2];
-        own.diagonals
+        frame
+            .diagonals
             .push(diagonal(DiagonalKind::Brace, storey, 1, rise));
         if storey > 1 && !elastic {
             let panel = Rise::BOTH.map(|rise| diagonal(DiagonalKind::Infill, storey, 2, rise));
-            own.diagonals.extend(panel);
+            frame.diagonals.extend(panel);
         }
     }
     if elastic {
-        for own in &mut own.diagonals {
-            own.hysteresis = None;
+        for diagonal in &mut frame.diagonals {
+            diagonal.hysteresis = None;
         }
     }
-    own
+    frame
 }
 
 fn alone(building: Building) -> Model {
@@ -97,24 +98,24 @@ fn shaken(model: &Model) -> (System, Outcome) {
 /// Where floors and columns keep their length, a brace adds k cos²α to its storey.
 #[test]
 fn a_brace_adds_k_cos_squared_to_a_storey() {
-    let stiffness = |own: Frame| {
-        let system = assembled(&alone(framed("A", own)));
-        let own = &system.buildings[0];
-        let mut load = vec![0.0; own.equations.len()];
-        load[own.floors[0].dof] = 1.0;
-        let moved = solve_once::<RiccatiSweep>(&own.structure, &StepMatrix::STATIC, &load)
+    let stiffness = |frame: Frame| {
+        let system = assembled(&alone(framed("A", frame)));
+        let building = &system.buildings[0];
+        let mut load = vec![0.0; building.equations.len()];
+        load[building.floors[0].dof] = 1.0;
+        let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load)
             .expect("it stands");
-        1.0 / moved[own.floors[0].dof]
+        1.0 / moved[building.floors[0].dof]
     };
     let bare = frame(1, &[6.0]);
     let (height, span) = (bare.storey_heights[0], 6.0);
     for rise in Rise::BOTH {
-        let mut own = bare.clone();
-        own.diagonals = vec![Diagonal {
+        let mut braced = bare.clone();
+        braced.diagonals = vec![Diagonal {
             hysteresis: None,
             ..diagonal(DiagonalKind::Brace, 1, 1, rise)
         }];
-        let added = stiffness(own) - stiffness(bare.clone());
+        let added = stiffness(braced) - stiffness(bare.clone());
         let cosine = span / f64::hypot(span, height);
         close(added, 4e7 * cosine * cosine, added, 1e-10, "k cos²α");
     }
@@ -146,14 +147,14 @@ fn a_braced_storey_that_buckles_moves_like_one_mass() {
     })
     .expect("sound");
     let cosine = 6.0 / f64::hypot(bare.storey_heights[0], 6.0);
-    let mut own = bare.clone();
-    own.diagonals = vec![Diagonal {
+    let mut braced = bare.clone();
+    braced.diagonals = vec![Diagonal {
         stiffness: 1.2e8,
         hysteresis: Some(law),
         ..diagonal(DiagonalKind::Brace, 1, 1, Rise::Right)
     }];
-    let undamped = |own: Frame| {
-        let mut model = alone(framed("A", own));
+    let undamped = |frame: Frame| {
+        let mut model = alone(framed("A", frame));
         model.buildings[0].damping = Damping::Rayleigh {
             alpha: 0.0,
             beta: 0.0,
@@ -185,7 +186,7 @@ fn a_braced_storey_that_buckles_moves_like_one_mass() {
         let next = 2.0 * now - before - step * step * (pushes / mass + motion.acceleration(time));
         (before, now) = (now, next);
     }
-    let mut model = undamped(own);
+    let mut model = undamped(braced);
     model.analysis.step = Some(5e-5);
     let (_, outcome, summary) = runs::run_and_summary(&model, &motion);
     assert!(outcome.energy.worst_imbalance < 1e-6);
@@ -238,8 +239,8 @@ fn columns_bear_what_braces_pull_and_push() {
         for column in &mut stiff.columns {
             column.axial_rigidity = Some(1e14);
         }
-        let [a, b] = [rigid, stiff].map(|own| {
-            let mut building = framed("A", own);
+        let [a, b] = [rigid, stiff].map(|frame| {
+            let mut building = framed("A", frame);
             building.damping = Damping::Rayleigh {
                 alpha: 0.4,
                 beta: 0.0,
@@ -247,19 +248,22 @@ fn columns_bear_what_braces_pull_and_push() {
             shaken(&alone(building))
         });
         let members = |(system, outcome): &(System, Outcome)| -> Vec<[f64; 2]> {
-            let own = &system.buildings[0].members;
-            let columns = own.members.iter().filter(|own| own.place.is_column());
-            let axial = columns.map(|own| outcome.members[0][own.sections[0].forms[0]]);
-            let diagonals = own.diagonals.iter();
+            let members = &system.buildings[0].members;
+            let columns = members
+                .members
+                .iter()
+                .filter(|member| member.place.is_column());
+            let axial = columns.map(|column| outcome.members[0][column.sections[0].forms[0]]);
+            let diagonals = members.diagonals.iter();
             axial
-                .chain(diagonals.map(|own| outcome.members[0][own.form]))
+                .chain(diagonals.map(|diagonal| outcome.members[0][diagonal.form]))
                 .collect()
         };
         let (a, b) = (members(&a), members(&b));
         let most = a
             .iter()
             .flatten()
-            .fold(0.0_f64, |most, own| most.max(own.abs()));
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(a.len() >= 12 && most > 1e5, "{most}");
         for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
             close(*a, *b, most, 2e-3, "axial force");
@@ -319,11 +323,20 @@ fn base_shear_is_that_of_the_lowest_storey() {
 #[test]
 fn frames_in_a_plan_have_the_same_diagonals() {
     for elastic in [true, false] {
-        let mut own = braced(elastic);
-        own.columns.iter_mut().for_each(|own| own.line_mass = 0.0);
-        own.beam_mass.iter_mut().for_each(|own| *own = 0.0);
-        own.column_segments = 1;
-        own.beam_segments.iter_mut().for_each(|own| *own = 1);
+        let mut frame = braced(elastic);
+        frame
+            .columns
+            .iter_mut()
+            .for_each(|column| column.line_mass = 0.0);
+        frame
+            .beam_mass
+            .iter_mut()
+            .for_each(|beam_mass| *beam_mass = 0.0);
+        frame.column_segments = 1;
+        frame
+            .beam_segments
+            .iter_mut()
+            .for_each(|beam_segment| *beam_segment = 1);
         let standing = |name: &str, y: f64| PlanFrame {
             name: name.to_owned(),
             at: [0.0, y],
@@ -331,7 +344,7 @@ fn frames_in_a_plan_have_the_same_diagonals() {
             lines: Vec::new(),
             base: Base::default(),
             hinges: FrameHinges::default(),
-            frame: own.clone(),
+            frame: frame.clone(),
         };
         let tier = Tier::uniform(60e3, rectangle(0.0, 0.0, 10.5, 8.0)).expect("an area");
         let across = PlanFrame {
@@ -344,17 +357,17 @@ fn frames_in_a_plan_have_the_same_diagonals() {
                 diagonals: Vec::new(),
                 spans: vec![8.0],
                 beam_segments: vec![1],
-                ..own.clone()
+                ..frame.clone()
             },
             ..across
         };
         let tiers = Tiers {
             floors: vec![tier; 3],
-            storey_heights: own.storey_heights.clone(),
+            storey_heights: frame.storey_heights.clone(),
             frames: vec![standing("front", 0.0), standing("back", 8.0), across],
             ..Tiers::default()
         };
-        let mut plane = own.clone();
+        let mut plane = frame.clone();
         plane.floor_mass = vec![30e3; 3];
         let [space, plane] = [Structure::Tiers(tiers), Structure::Frame(plane)].map(|structure| {
             let mut model = alone(Building {
@@ -394,16 +407,16 @@ fn frames_in_a_plan_have_the_same_diagonals() {
 #[test]
 fn columns_and_diagonals_carry_all_that_lies_above_them() {
     for elastic in [true, false] {
-        let mut own = braced(elastic);
-        own.axial.columns_flexible = true;
-        own.columns = vec![
+        let mut frame = braced(elastic);
+        frame.axial.columns_flexible = true;
+        frame.columns = vec![
             Section {
                 axial_rigidity: Some(8e9),
                 ..concrete(0.5, 0.5)
             };
             3
         ];
-        let system = assembled(&alone(framed("A", own.clone())));
+        let system = assembled(&alone(framed("A", frame.clone())));
         let building = &system.buildings[0].structure;
         let carried = compressions(building, STANDARD_GRAVITY).expect("it stands");
         let rest = settle(building, STANDARD_GRAVITY).expect("it stands");
@@ -416,8 +429,8 @@ fn columns_and_diagonals_carry_all_that_lies_above_them() {
                 a.min(b) < cut && a.max(b) > cut
             });
             let mut sum: f64 = columns.map(|(_, force)| force).sum();
-            for own in &system.buildings[0].members.diagonals {
-                let part = &building.discretization.diagonals[own.diagonal];
+            for diagonal in &system.buildings[0].members.diagonals {
+                let part = &building.discretization.diagonals[diagonal.diagonal];
                 if part.place.storey != storey + 1 {
                     continue;
                 }
@@ -431,7 +444,7 @@ fn columns_and_diagonals_carry_all_that_lies_above_them() {
                     &[],
                     0.0,
                     |form, value| {
-                        if form == own.form {
+                        if form == diagonal.form {
                             force = value;
                         }
                     },
@@ -452,8 +465,8 @@ fn columns_and_diagonals_carry_all_that_lies_above_them() {
 /// Panels that crack, crush and lose their force: both ways to solve for a step agree, energies balance, and struts only push.
 #[test]
 fn cracking_panels_push_alone() {
-    let mut own = braced(false);
-    for strut in &mut own.diagonals {
+    let mut frame = braced(false);
+    for strut in &mut frame.diagonals {
         if strut.place.kind == DiagonalKind::Infill {
             let corners = Corners {
                 cracking: 40e3,
@@ -467,7 +480,7 @@ fn cracking_panels_push_alone() {
             strut.hysteresis = Some(both.in_compression().expect("pinched"));
         }
     }
-    let mut model = alone(framed("F", own));
+    let mut model = alone(framed("F", frame));
     model.analysis.tolerance = 1e-4;
     let motion = fading("along", 9.0, [2.5, 3.0], 300);
     let [riccati, stiffness] = [Solver::Riccati, Solver::Stiffness].map(|solver| {
@@ -490,8 +503,8 @@ fn cracking_panels_push_alone() {
     let springs = &riccati.1.state.springs;
     let mut cracked = 0;
     for (place, memory) in places.iter().zip(springs) {
-        if let SpringPlace::Diagonal { place: own, .. } = place
-            && own.kind == DiagonalKind::Infill
+        if let SpringPlace::Diagonal { place, .. } = place
+            && place.kind == DiagonalKind::Infill
         {
             assert!(memory.force() <= 0.0);
             let corner = 40e3 / 4e7;
@@ -507,14 +520,14 @@ fn cracking_panels_push_alone() {
 fn panels_are_compared_with_the_accelerations_of_their_floors() {
     let motion = fading("along", 9.0, [2.5, 3.0], 500);
     let model = |strength: Option<f64>| {
-        let mut own = braced(false);
-        for part in &mut own.diagonals {
+        let mut frame = braced(false);
+        for part in &mut frame.diagonals {
             part.across = strength.map(|strength| PanelAcross {
                 strength,
                 surface_mass: 280.0,
             });
         }
-        alone(framed("A", own))
+        alone(framed("A", frame))
     };
     let (_, bare, _) = runs::run_and_summary(&model(None), &motion);
     let (_, outcome, summary) = runs::run_and_summary(&model(Some(1e4)), &motion);
@@ -524,16 +537,16 @@ fn panels_are_compared_with_the_accelerations_of_their_floors() {
         let history = column(&outcome, of);
         history
             .iter()
-            .fold(0.0_f64, |most, own| most.max(own.abs()))
+            .fold(0.0_f64, |most, history| most.max(history.abs()))
     };
     let floors = [motion.peak(), most(1), most(2), most(3)];
     let panels = summary.buildings[0]
         .parts
         .iter()
-        .filter(|own| own.kind == "infill");
+        .filter(|part| part.kind == "infill");
     let mut count = 0;
-    for own in panels {
-        let storey: usize = own
+    for panel in panels {
+        let storey: usize = panel
             .name
             .split('.')
             .nth(2)
@@ -542,11 +555,11 @@ fn panels_are_compared_with_the_accelerations_of_their_floors() {
             .expect("a number");
         let due = 280.0 * floors[storey - 1].max(floors[storey]) / 1e4;
         close(
-            own.out_of_plane_ratio.expect("it is compared"),
+            panel.out_of_plane_ratio.expect("it is compared"),
             due,
             due,
             5e-3,
-            &own.name,
+            &panel.name,
         );
         count += 1;
     }
@@ -555,7 +568,7 @@ fn panels_are_compared_with_the_accelerations_of_their_floors() {
         summary
             .warnings
             .iter()
-            .any(|own| own.contains("out of their plane"))
+            .any(|warning| warning.contains("out of their plane"))
     };
     assert!(!said(&summary), "{:?}", summary.warnings);
     let (_, _, weak) = runs::run_and_summary(&model(Some(100.0)), &motion);

@@ -149,13 +149,14 @@ fn model(tiers: Tiers, solver: Solver) -> Model {
 
 /// Displacements u_x, u_y, θ of the only floor of a building under a force on it.
 fn pushed(system: &System, push: [f64; 3]) -> [f64; 3] {
-    let own = &system.buildings[0];
-    let mut load = vec![0.0; own.equations.len()];
+    let building = &system.buildings[0];
+    let mut load = vec![0.0; building.equations.len()];
     for (direction, force) in push.into_iter().enumerate() {
-        load[own.tracks[direction].dof] = force;
+        load[building.tracks[direction].dof] = force;
     }
-    let answer = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
-    [0, 1, 2].map(|direction| answer[own.tracks[direction].dof])
+    let answer =
+        solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load).expect("it stands");
+    [0, 1, 2].map(|direction| answer[building.tracks[direction].dof])
 }
 
 fn single_storey(frame: SpaceFrame, height: f64) -> Tiers {
@@ -176,28 +177,30 @@ fn braces_add_k_cos_squared_and_its_torsion() {
     let (h, size): (f64, [f64; 2]) = (3.6, [6.0, 5.0]);
     for self_weight in [false, true] {
         let mut frame = grid(&[0.0, size[0]], &[0.0, size[1]], 1, self_weight);
-        let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+        let is_column = |member: &SpaceMember| matches!(member.place, SpacePlace::Column { .. });
         frame.members.retain(is_column);
         // Under its weight joints have displacements of their own: they hardly move.
-        for own in &mut frame.members {
-            own.section.axial_rigidity = self_weight.then_some(1e16);
+        for member in &mut frame.members {
+            member.section.axial_rigidity = self_weight.then_some(1e16);
         }
         let section = frame.members[0].section;
         for (number, rise) in [1, 2].into_iter().zip(Rise::BOTH) {
             for along in PlanAxis::BOTH {
-                let own = Law::Elastic.diagonal(on(along, number), 1, 1, rise);
-                frame.diagonals.push(own);
+                let diagonal = Law::Elastic.diagonal(on(along, number), 1, 1, rise);
+                frame.diagonals.push(diagonal);
             }
         }
-        let mut own = model(single_storey(frame, h), Solver::Riccati);
-        own.buildings[0].gravity = Gravity {
+        let mut model = model(single_storey(frame, h), Solver::Riccati);
+        model.buildings[0].gravity = Gravity {
             preload: self_weight,
             ..Gravity::default()
         };
-        let system = assembled(&own);
+        let system = assembled(&model);
         let of_column = [0, 1].map(|plane| {
             let bent = h.powi(3) / (3.0 * section.flexural_rigidity[plane]);
-            let sheared = section.shear_rigidity.map_or(0.0, |own| h / own[plane]);
+            let sheared = section
+                .shear_rigidity
+                .map_or(0.0, |shear_rigidity| h / shear_rigidity[plane]);
             1.0 / (bent + sheared)
         });
         let brace = size.map(|bay| STIFFNESS * bay * bay / (bay * bay + h * h));
@@ -226,23 +229,26 @@ fn slender_columns_and_braces_are_a_truss() {
     let mut frame = grid(&[0.0, bay], &[0.0, 5.0], 1, true);
     frame
         .members
-        .retain(|own| !matches!(own.place, SpacePlace::BeamX { .. }));
+        .retain(|member| !matches!(member.place, SpacePlace::BeamX { .. }));
     let mut rigidity = 0.0;
-    for own in &mut frame.members {
-        own.section.flexural_rigidity = own.section.flexural_rigidity.map(|own| 1e-9 * own);
-        own.section.torsional_rigidity *= 1e-9;
-        own.section.shear_rigidity = None;
-        if matches!(own.place, SpacePlace::Column { .. }) {
-            rigidity = own.section.axial_rigidity.expect("it shortens");
+    for member in &mut frame.members {
+        member.section.flexural_rigidity = member
+            .section
+            .flexural_rigidity
+            .map(|flexural_rigidity| 1e-9 * flexural_rigidity);
+        member.section.torsional_rigidity *= 1e-9;
+        member.section.shear_rigidity = None;
+        if matches!(member.place, SpacePlace::Column { .. }) {
+            rigidity = member.section.axial_rigidity.expect("it shortens");
         }
     }
     for number in [1, 2] {
         let line = on(PlanAxis::X, number);
-        let own = Law::Elastic.diagonal(line, 1, 1, Rise::Right);
-        frame.diagonals.push(own);
+        let diagonal = Law::Elastic.diagonal(line, 1, 1, Rise::Right);
+        frame.diagonals.push(diagonal);
     }
     let system = assembled(&model(single_storey(frame, h), Solver::Riccati));
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let moved = pushed(&system, [2.0 * push, 0.0, 0.0]);
     let length = bay.hypot(h);
     let expected =
@@ -250,15 +256,15 @@ fn slender_columns_and_braces_are_a_truss() {
     close(moved[0], expected, expected, 1e-8, "sway");
     let mut state = jostle::State::at_rest(&system, 0.0);
     for (direction, value) in moved.into_iter().enumerate() {
-        state.displacement[own.tracks[direction].dof] = value;
+        state.displacement[building.tracks[direction].dof] = value;
     }
-    let mut forces = vec![0.0; own.members.forms.len()];
-    own.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
-    for brace in &own.members.diagonals {
+    let mut forces = vec![0.0; building.members.forms.len()];
+    building.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
+    for brace in &building.members.diagonals {
         let due = push * length / bay;
         close(forces[brace.form], due, push, 1e-8, "brace");
     }
-    for member in &own.members.members {
+    for member in &building.members.members {
         let MemberPlace::InSpace(SpacePlace::Column { line, .. }) = member.place else {
             continue;
         };
@@ -316,11 +322,13 @@ fn faces(law: Law, axial: bool, rigid: bool) -> [Tiers; 2] {
     }
     let of = |place: SpacePlace| {
         let mut members = space.members.iter();
-        let own = members.find(|own| own.place == place).expect("a member");
+        let member = members
+            .find(|member| member.place == place)
+            .expect("a member");
         Section {
-            flexural_rigidity: own.section.flexural_rigidity[0],
-            axial_rigidity: own.section.axial_rigidity.or(Some(1e9)),
-            shear_rigidity: own.section.shear_rigidity.map(|both| both[0]),
+            flexural_rigidity: member.section.flexural_rigidity[0],
+            axial_rigidity: member.section.axial_rigidity.or(Some(1e9)),
+            shear_rigidity: member.section.shear_rigidity.map(|both| both[0]),
             line_mass: 0.0,
         }
     };
@@ -388,10 +396,10 @@ fn along() -> GroundMotion {
 /// Greatest displacements of the floors along x, across, and in rotation.
 fn sways(outcome: &Outcome) -> Vec<[f64; 3]> {
     let peaks = outcome.peaks.floors(0);
-    let of = |own: &jostle::history::PeaksOf<'_>| own.displacement().size();
+    let of = |peaks: &jostle::history::PeaksOf<'_>| peaks.displacement().size();
     peaks
         .iter()
-        .map(|own| [of(own), of(&own.across()), of(&own.turning())])
+        .map(|peak| [of(peak), of(&peak.across()), of(&peak.turning())])
         .collect()
 }
 
@@ -410,31 +418,41 @@ fn a_pair_of_faces_is_its_plane_limit() {
     ] {
         let what = format!("{law:?}, axial {axial}, rigid {rigid}");
         let [a, b] = faces(law, axial, rigid).map(|tiers| {
-            let own = model(tiers, solver);
-            let (system, outcome) = runs::run(&own, &along(), Some(0.02));
+            let model = model(tiers, solver);
+            let (system, outcome) = runs::run(&model, &along(), Some(0.02));
             assert!(outcome.energy.worst_imbalance < 1e-6, "{what}");
             (system, outcome)
         });
         let within = if solver == Solver::Modal { 1e-7 } else { 1e-9 };
-        for (own, other) in sways(&a.1).iter().zip(sways(&b.1)) {
-            close(own[0], other[0], other[0], within, &what);
-            assert!(own[1].max(own[2]) < 1e-9 * own[0], "{what}: {own:?}");
+        for (sway, other) in sways(&a.1).iter().zip(sways(&b.1)) {
+            close(sway[0], other[0], other[0], within, &what);
+            assert!(sway[1].max(sway[2]) < 1e-9 * sway[0], "{what}: {sway:?}");
         }
         let (ea, eb) = (a.1.energy.hysteretic, b.1.energy.hysteretic);
         if matches!(law, Law::Yielding | Law::Buckling) {
             assert!(eb > 1e3, "{what}: {eb}");
         }
         close(ea, eb, eb.max(1.0), 10.0 * within, &what);
-        let [own, other] = [&a.0.buildings[0].members, &b.0.buildings[0].members];
-        assert_eq!(own.diagonals.len(), 2 * line_of(law, None).len());
-        for (own, other) in own.diagonals.iter().zip(&other.diagonals) {
-            let [own, other] = [a.1.members[0][own.form], b.1.members[0][other.form]];
-            for (own, other) in own.into_iter().zip(other) {
-                close(own, other, 1e5, 10.0 * within, &format!("{what}: diagonal"));
+        let [one, other] = [&a.0.buildings[0].members, &b.0.buildings[0].members];
+        assert_eq!(one.diagonals.len(), 2 * line_of(law, None).len());
+        for (diagonal, other) in one.diagonals.iter().zip(&other.diagonals) {
+            let [member, other] = [a.1.members[0][diagonal.form], b.1.members[0][other.form]];
+            for (model, other) in member.into_iter().zip(other) {
+                close(
+                    model,
+                    other,
+                    1e5,
+                    10.0 * within,
+                    &format!("{what}: diagonal"),
+                );
             }
         }
         let mut compared = 0;
-        for member in other.members.iter().filter(|own| own.frame == Some(1)) {
+        for member in other
+            .members
+            .iter()
+            .filter(|member| member.frame == Some(1))
+        {
             let place = match member.place {
                 MemberPlace::Column { line, storey } => SpacePlace::Column {
                     line: [line - 1, 1],
@@ -447,13 +465,13 @@ fn a_pair_of_faces_is_its_plane_limit() {
                 },
                 MemberPlace::InSpace(_) => panic!("a plane frame"),
             };
-            let mut members = own.members.iter();
-            let same = members.find(|own| own.place == MemberPlace::InSpace(place));
-            for (own, other) in same.expect("it").sections.iter().zip(&member.sections) {
-                for (own, other) in own.forms.iter().zip(other.forms) {
-                    let [own, other] = [a.1.members[0][*own], b.1.members[0][other]];
-                    for (own, other) in own.into_iter().zip(other) {
-                        close(own, other, 1e5, 1e3 * within, &format!("{what}: {place}"));
+            let mut members = one.members.iter();
+            let same = members.find(|member| member.place == MemberPlace::InSpace(place));
+            for (section, other) in same.expect("it").sections.iter().zip(&member.sections) {
+                for (form, other) in section.forms.iter().zip(other.forms) {
+                    let [member, other] = [a.1.members[0][*form], b.1.members[0][other]];
+                    for (model, other) in member.into_iter().zip(other) {
+                        close(model, other, 1e5, 1e3 * within, &format!("{what}: {place}"));
                     }
                 }
             }
@@ -487,20 +505,20 @@ fn uneven(law: Law) -> Tiers {
 
 /// The same on the site as seen from above through a mirror that exchanges x and y.
 fn exchanged(tiers: &Tiers) -> Tiers {
-    let mut own = tiers.clone();
+    let mut tiers = tiers.clone();
     let swap = |[x, y]: PlanPoint| [y, x];
-    for floor in &mut own.floors {
+    for floor in &mut tiers.floors {
         floor.centre = swap(floor.centre);
         floor.plan = floor.plan.iter().rev().map(|at| swap(*at)).collect();
     }
-    let frame = own.space_frame.as_mut().expect("a frame");
+    let frame = tiers.space_frame.as_mut().expect("a frame");
     std::mem::swap(&mut frame.lines_x, &mut frame.lines_y);
     for member in &mut frame.members {
         member.place = match member.place {
             SpacePlace::Column { line, storey } => {
                 member.section.flexural_rigidity.swap(0, 1);
-                if let Some(own) = &mut member.section.shear_rigidity {
-                    own.swap(0, 1);
+                if let Some(shear_rigidity) = &mut member.section.shear_rigidity {
+                    shear_rigidity.swap(0, 1);
                 }
                 SpacePlace::Column {
                     line: [line[1], line[0]],
@@ -511,8 +529,8 @@ fn exchanged(tiers: &Tiers) -> Tiers {
             SpacePlace::BeamY { line, span, floor } => SpacePlace::BeamX { span, line, floor },
         };
     }
-    for own in &mut frame.diagonals {
-        let line = own.place.line.as_mut().expect("a line");
+    for diagonal in &mut frame.diagonals {
+        let line = diagonal.place.line.as_mut().expect("a line");
         line.along = match line.along {
             PlanAxis::X => PlanAxis::Y,
             PlanAxis::Y => PlanAxis::X,
@@ -523,7 +541,7 @@ fn exchanged(tiers: &Tiers) -> Tiers {
     frame.rigid_zones = zones
         .map(|([floor, x, y], [a, b, c])| ([floor, y, x], [b, a, c]))
         .collect();
-    own
+    tiers
 }
 
 fn shaken(tiers: Tiers, angle: f64, sign: f64, solver: Solver) -> (System, Outcome, Summary) {
@@ -535,15 +553,15 @@ fn shaken(tiers: Tiers, angle: f64, sign: f64, solver: Solver) -> (System, Outco
         })),
         ..along()
     };
-    let own = model(tiers, solver);
-    let answer = runs::run_and_summary(&own, &motion);
+    let model = model(tiers, solver);
+    let answer = runs::run_and_summary(&model, &motion);
     assert!(answer.1.energy.worst_imbalance < 1e-6);
     answer
 }
 
 fn forces(system: &System, outcome: &Outcome) -> Vec<[f64; 2]> {
     let forces = system.buildings[0].members.diagonals.iter();
-    forces.map(|own| outcome.members[0][own.form]).collect()
+    forces.map(|force| outcome.members[0][force.form]).collect()
 }
 
 /// A frame that stands turned by 90° with its shaking, and one with x and y exchanged, move and bear the same.
@@ -556,8 +574,12 @@ fn turned_and_exchanged_frames_bear_the_same() {
     ] {
         let tiers = uneven(law);
         let (system, outcome, _) = shaken(tiers.clone(), 0.3, 1.0, solver);
-        let own = forces(&system, &outcome);
-        assert!(own.iter().all(|[most, least]| *most > 1e4 && *least < -1e4));
+        let reference = forces(&system, &outcome);
+        assert!(
+            reference
+                .iter()
+                .all(|[most, least]| *most > 1e4 && *least < -1e4)
+        );
         let mut turned = tiers.clone();
         let turn = |[x, y]: PlanPoint| [-y, x];
         for floor in &mut turned.floors {
@@ -570,9 +592,9 @@ fn turned_and_exchanged_frames_bear_the_same() {
         let mirrored = shaken(exchanged(&tiers), FRAC_PI_2 - 0.3, -1.0, solver);
         let within = if solver == Solver::Modal { 1e-7 } else { 1e-9 };
         for (name, (system, outcome, _)) in [("turned", turned), ("exchanged", mirrored)] {
-            for (own, other) in own.iter().zip(forces(&system, &outcome)) {
-                for (own, other) in own.iter().zip(other) {
-                    close(other, *own, 1e5, within, &format!("{law:?}, {name}"));
+            for (force, other) in reference.iter().zip(forces(&system, &outcome)) {
+                for (force, other) in force.iter().zip(other) {
+                    close(other, *force, 1e5, within, &format!("{law:?}, {name}"));
                 }
             }
         }
@@ -583,12 +605,12 @@ fn turned_and_exchanged_frames_bear_the_same() {
 #[test]
 fn panels_are_compared_with_what_shakes_them_across() {
     let panel = |line, storey| {
-        let mut own = Law::Struts.diagonal(line, storey, 1, Rise::Right);
-        own.across = Some(PanelAcross {
+        let mut diagonal = Law::Struts.diagonal(line, storey, 1, Rise::Right);
+        diagonal.across = Some(PanelAcross {
             strength: 1e4,
             surface_mass: 280.0,
         });
-        own
+        diagonal
     };
     let mut tiers = uneven(Law::Elastic);
     let frame = tiers.space_frame.as_mut().expect("a frame");
@@ -615,14 +637,14 @@ fn panels_are_compared_with_what_shakes_them_across() {
     let parts = &summary.buildings[0].parts;
     assert_eq!(parts[0].name, "A.infill_x.1.1.2");
     assert_eq!(parts[1].name, "A.infill_y.2.1.1");
-    for (own, due) in parts.iter().zip(due) {
+    for (part, due) in parts.iter().zip(due) {
         let due = 280.0 * due / 1e4;
         close(
-            own.out_of_plane_ratio.expect("it"),
+            part.out_of_plane_ratio.expect("it"),
             due,
             due,
             1e-12,
-            &own.name,
+            &part.name,
         );
     }
 }
@@ -636,14 +658,14 @@ fn diagonals_without_joints_are_refused() {
         let faults = System::assemble(&model(tiers, Solver::Riccati)).expect_err("a fault");
         faults
             .iter()
-            .map(|own| format!("{}: {}", own.path, own.problem))
+            .map(|fault| format!("{}: {}", fault.path, fault.problem))
             .collect::<Vec<_>>()
             .join("; ")
     };
     let gone = faults(&|frame| {
-        frame.members.retain(|own| {
-            let [a, b] = own.place.crossings();
-            (a != [1, 0] && b != [1, 0]) || own.place.storey() == 0
+        frame.members.retain(|member| {
+            let [a, b] = member.place.crossings();
+            (a != [1, 0] && b != [1, 0]) || member.place.storey() == 0
         });
     });
     assert!(

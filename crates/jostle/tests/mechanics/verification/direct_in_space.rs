@@ -76,12 +76,12 @@ fn peaks(outcome: &Outcome) -> Vec<Vec<f64>> {
 
 pub(crate) fn apart(a: &Outcome, b: &Outcome) -> f64 {
     let mut worst = 0.0_f64;
-    for (own, other) in peaks(a).iter().zip(&peaks(b)) {
-        assert_eq!(own.len(), other.len());
-        let greatest = own
+    for (peak, other) in peaks(a).iter().zip(&peaks(b)) {
+        assert_eq!(peak.len(), other.len());
+        let greatest = peak
             .iter()
             .fold(0.0_f64, |most, value| most.max(value.abs()));
-        for (a, b) in own.iter().zip(other) {
+        for (a, b) in peak.iter().zip(other) {
             worst = worst.max((a - b).abs() / greatest);
         }
     }
@@ -151,7 +151,11 @@ fn momentum_laws_act_in_space() {
     });
     // Rounding of equilibrium over short steps.
     assert!(one.energy.contact > 0.0 && one.energy.worst_imbalance < 1e-6);
-    let [a, b] = [&one, &other].map(|run| run.impacts.first().map(|own| (own.start, own.impulse)));
+    let [a, b] = [&one, &other].map(|run| {
+        run.impacts
+            .first()
+            .map(|impact| (impact.start, impact.impulse))
+    });
     let (Some((a, impulse)), Some((b, expected))) = (a, b) else {
         panic!("no impacts")
     };
@@ -181,7 +185,7 @@ fn friction_is_that_of_modes() {
     assert!(b > 100.0 && (a / b - 1.0).abs() < 1e-4, "{a} against {b} J");
     let peak = |run: &Outcome| {
         let faces = run.face_impacts.iter();
-        faces.fold(0.0_f64, |most, own| most.max(own.peak_friction.value))
+        faces.fold(0.0_f64, |most, face| most.max(face.peak_friction.value))
     };
     // The slip that turns within a step counts.
     let (a, b) = (peak(&direct), peak(&modal));

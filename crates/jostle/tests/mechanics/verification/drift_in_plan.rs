@@ -29,7 +29,7 @@ fn stepped(stiffness: [f64; 3]) -> jostle::Model {
         *floor = jostle::Tier::uniform(mass, plan.to_vec()).expect("an area");
     }
     for (storey, factor) in tiers.storeys.iter_mut().zip(stiffness) {
-        storey.stiffness = storey.stiffness.map(|own| factor * own);
+        storey.stiffness = storey.stiffness.map(|stiffness| factor * stiffness);
     }
     model(vec![building], Vec::new())
 }
@@ -107,7 +107,7 @@ fn drifts_are_those_of_recorded_motions() {
                 };
                 let above = moved(&above, centres[storey]);
                 let below = below.as_ref();
-                let below = below.map_or([0.0; 2], |own| moved(own, centres[storey - 1]));
+                let below = below.map_or([0.0; 2], |below| moved(below, centres[storey - 1]));
                 [0, 1].map(|axis| (above[axis] - below[axis]) / 3.0)
             };
             let rows = 0..history.len();
@@ -121,13 +121,13 @@ fn drifts_are_those_of_recorded_motions() {
                 }
             }
             let peaks = outcome.peaks.floor(0, storey + 1);
-            for (own, known, name) in [
+            for (got, known, name) in [
                 (peaks.storey_drift(), along, "along"),
                 (peaks.across().storey_drift(), across, "across"),
                 (peaks.corner_drift(), corner, "corner"),
             ] {
                 // Between rows it may be a little more.
-                let off = own / known - 1.0;
+                let off = got / known - 1.0;
                 assert!(
                     (-1e-9..1e-3).contains(&off),
                     "{solver:?}: storey {storey} {name}: {off:.1e}"

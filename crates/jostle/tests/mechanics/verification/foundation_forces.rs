@@ -35,40 +35,40 @@ fn columns_keep_a_rocking_foundation_in_equilibrium() {
         let system = assembled(&model);
         let motion = shaking(2.0);
         let state = run(&system, &motion, &steps(1e-3, 1)).state;
-        let own = &system.buildings[0];
-        let mut forces = vec![0.0; own.members.forms.len()];
-        own.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
-        let sticks = &own.discretization.stick_model;
+        let building = &system.buildings[0];
+        let mut forces = vec![0.0; building.members.forms.len()];
+        building.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
+        let sticks = &building.discretization.stick_model;
         let foundation = sticks.foundation.as_ref().expect("one");
         let base = foundation.node;
         let middle = sticks.nodes[base].x;
-        let turning = own.equations.rotation(base).expect("it rocks");
-        let sway = own.equations.horizontal(base).expect("it sways");
+        let turning = building.equations.rotation(base).expect("it rocks");
+        let sway = building.equations.horizontal(base).expect("it sways");
         let (u, v, a) = (&state.displacement, &state.velocity, &state.acceleration);
-        let springs = own.foundation.expect("it stands on one").springs;
+        let springs = building.foundation.expect("it stands on one").springs;
         let of_soil = springs.rocking_stiffness * u[turning] + springs.rocking_damping * v[turning];
         let (mut inertia, mut dashpots) = (0.0, 0.0);
         for (index, node) in sticks.nodes.iter().enumerate() {
             let x = node.x - middle;
             if node.y == 0.0 {
                 inertia += (node.inertia[2] + node.mass() * x * x) * a[turning];
-            } else if let Some(dof) = own.equations.horizontal(index) {
+            } else if let Some(dof) = building.equations.horizontal(index) {
                 let rate = v[dof] - v[sway] + node.y * v[turning];
                 dashpots += alpha * node.mass() * node.y * rate;
                 if sticks.lever(index).is_none()
-                    && let Some(dof) = own.equations.vertical(index)
+                    && let Some(dof) = building.equations.vertical(index)
                 {
                     dashpots -= alpha * node.mass() * x * (v[dof] - x * v[turning]);
                 }
             }
         }
         let (mut by_columns, mut scale, mut axial) = (0.0, 0.0_f64, 0.0_f64);
-        for member in &own.members.members {
+        for member in &building.members.members {
             let foot = member.sections[0];
             if !member.place.is_column() || foot.height > 0.0 {
                 continue;
             }
-            let line = sticks.nodes[sticks.members[elements(own, member.place)].ends[0]];
+            let line = sticks.nodes[sticks.members[elements(building, member.place)].ends[0]];
             let [n, _, m] = foot.forms.map(|form| forces[form]);
             by_columns += n * (line.x - middle) + m;
             scale = scale.max((n * (line.x - middle)).abs()).max(m.abs());
@@ -80,8 +80,11 @@ fn columns_keep_a_rocking_foundation_in_equilibrium() {
 }
 
 /// The lowest member of the stick model of a column.
-fn elements(own: &jostle::system::BuildingSystem, place: jostle::structure::MemberPlace) -> usize {
-    let mut members = own.discretization.members.iter();
+fn elements(
+    building: &jostle::system::BuildingSystem,
+    place: jostle::structure::MemberPlace,
+) -> usize {
+    let mut members = building.discretization.members.iter();
     let found = members.find(|member| member.place == place);
     found.expect("a column").elements.start
 }

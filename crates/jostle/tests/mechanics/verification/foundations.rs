@@ -196,16 +196,16 @@ fn soil_adds_its_own_displacement_under_static_forces() {
         let system = assembled(&soft);
         let place = system.buildings[0].foundation.expect("it stands on one");
         let forces: Vec<f64> = (0..heights.len()).map(|k| 1e5 * (k as f64 - 0.3)).collect();
-        let pushed = |own: &BuildingSystem| {
-            let mut load = vec![0.0; own.equations.len()];
-            for (floor, force) in own.floors.iter().zip(&forces) {
+        let pushed = |system: &BuildingSystem| {
+            let mut load = vec![0.0; system.equations.len()];
+            for (floor, force) in system.floors.iter().zip(&forces) {
                 load[floor.dof] += force;
             }
-            let riccati = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load);
-            let direct = solve_once::<DirectStiffness>(own, &StepMatrix::STATIC, &load);
+            let riccati = solve_once::<RiccatiSweep>(system, &StepMatrix::STATIC, &load);
+            let direct = solve_once::<DirectStiffness>(system, &StepMatrix::STATIC, &load);
             let [riccati, direct] = [riccati, direct].map(|found| found.expect("it stands"));
             assert!(difference(&riccati, &direct) < 1e-9);
-            let floors = own.floors.iter().map(|floor| riccati[floor.dof]);
+            let floors = system.floors.iter().map(|floor| riccati[floor.dof]);
             floors.collect::<Vec<f64>>()
         };
         let rigid = pushed(&fixed.buildings[0]);
@@ -236,10 +236,10 @@ fn a_stiff_frame_rocks_as_a_rigid_body() {
     }
     let model = on_soil(alone(framed("A", stiff)), embedded(), SoilCoupling::None);
     let system = assembled(&model);
-    let own = &system.buildings[0];
-    let place = own.foundation.expect("it stands on one");
+    let building = &system.buildings[0];
+    let place = building.foundation.expect("it stands on one");
     let (mut mass, mut first, mut polar) = (0.0, 0.0, 0.0);
-    for node in &own.discretization.stick_model.nodes {
+    for node in &building.discretization.stick_model.nodes {
         mass += node.mass();
         first += node.mass() * node.y;
         polar += node.inertia[2] + node.mass() * (node.y.powi(2) + (node.x - 4.5).powi(2));
@@ -270,26 +270,26 @@ fn damping_is_relative_to_the_foundation() {
     for building in [three_storeys(), framed("A", frame(2, &[6.0, 3.0]))] {
         let model = on_soil(alone(building), embedded(), SoilCoupling::None);
         let system = assembled(&model);
-        let own = &system.buildings[0];
-        let place = own.foundation.expect("it stands on one");
-        assert!(own.equations.alpha > 0.0);
-        let nodes = &own.discretization.stick_model.nodes;
-        let base = own
+        let building = &system.buildings[0];
+        let place = building.foundation.expect("it stands on one");
+        assert!(building.equations.alpha > 0.0);
+        let nodes = &building.discretization.stick_model.nodes;
+        let base = building
             .discretization
             .stick_model
             .foundation
             .as_ref()
             .expect("one");
         let (sway, turned) = (0.3, 0.02);
-        let mut rigid = vec![0.0; own.equations.len()];
+        let mut rigid = vec![0.0; building.equations.len()];
         for (index, node) in nodes.iter().enumerate() {
             let moves = [
-                (own.equations.horizontal(index), sway - node.y * turned),
+                (building.equations.horizontal(index), sway - node.y * turned),
                 (
-                    own.equations.vertical(index),
+                    building.equations.vertical(index),
                     (node.x - nodes[base.node].x) * turned,
                 ),
-                (own.equations.rotation(index), turned),
+                (building.equations.rotation(index), turned),
             ];
             for (dof, value) in moves {
                 if let Some(dof) = dof {
@@ -297,17 +297,17 @@ fn damping_is_relative_to_the_foundation() {
                 }
             }
         }
-        let inertia: f64 = own
+        let inertia: f64 = building
             .equations
             .mass
             .iter()
             .zip(&rigid)
             .map(|(m, v)| m * v * v)
             .sum();
-        let strained = own.equations.stiffness.quadratic_form(&rigid);
-        let damped = own.equations.alpha * inertia
-            + own.equations.beta * strained
-            + own.equations.dashpots.quadratic_form(&rigid);
+        let strained = building.equations.stiffness.quadratic_form(&rigid);
+        let damped = building.equations.alpha * inertia
+            + building.equations.beta * strained
+            + building.equations.dashpots.quadratic_form(&rigid);
         let soil = place.springs.sway_damping * sway * sway
             + place.springs.rocking_damping * turned * turned;
         assert!((damped / soil - 1.0).abs() < 1e-9, "{damped} {soil}");
@@ -338,7 +338,7 @@ fn static_coupling_is_that_of_the_half_space() {
             let share = |row: &jostle::linear::Row, dof: usize| {
                 let entries = row.entries().iter();
                 entries
-                    .filter(|(own, _)| *own == dof)
+                    .filter(|(candidate, _)| *candidate == dof)
                     .map(|(_, c)| c)
                     .sum::<f64>()
             };
@@ -417,8 +417,11 @@ fn equal_neighbours_see_the_sum_of_a_row() {
             assert!(difference(&found, &expected) < 1e-9);
         }
         let [a, b] = [(&pair, building), (&one, 0)].map(|(run, building)| {
-            let own = run.peaks.owned_by(Owner::Foundation(building)).turning();
-            [own.displacement_max().value, own.displacement_min().value]
+            let turning = run.peaks.owned_by(Owner::Foundation(building)).turning();
+            [
+                turning.displacement_max().value,
+                turning.displacement_min().value,
+            ]
         });
         assert!(difference(&a, &b) < 1e-9);
     }
@@ -442,14 +445,14 @@ fn condensed_equals_monolithic_on_soil() {
     };
     let yielding = |rule: HysteresisRule| {
         let mut towers = vec![tower("A", 4, 4e4, 0.7), tower("B", 3, 6e4, 0.4)];
-        for own in &mut towers {
-            let Structure::Shear(shear) = &own.structure else {
+        for tower in &mut towers {
+            let Structure::Shear(shear) = &tower.structure else {
                 panic!("it is a shear building");
             };
             let storeys = shear.stiffness.iter();
             let storeys = storeys.map(|k| Hysteresis::new(rule, backbone(*k)).expect("it fits"));
-            own.hinges = Some(Hinges::Storeys(storeys.collect()));
-            own.gravity.p_delta = true;
+            tower.hinges = Some(Hinges::Storeys(storeys.collect()));
+            tower.gravity.p_delta = true;
         }
         towers
     };
@@ -552,8 +555,8 @@ fn links_between_floors_on_soil_are_part_of_their_storeys() {
         assert!(difference(&of(&found), &of(&expected)) < 1e-9);
     }
     let rocking = [&found, &expected].map(|outcome| {
-        let own = outcome.peaks.owned_by(Owner::Foundation(0)).turning();
-        own.displacement_max().value
+        let turning = outcome.peaks.owned_by(Owner::Foundation(0)).turning();
+        turning.displacement_max().value
     });
     assert!((rocking[0] / rocking[1] - 1.0).abs() < 1e-9 && rocking[1] > 1e-4);
 }
@@ -641,8 +644,8 @@ fn half_space(model: &mut Model) -> &mut HalfSpace {
 }
 
 fn foundation(model: &mut Model) -> &mut Foundation {
-    let own = model.buildings[0].base.foundation.as_mut();
-    own.expect("it has a foundation")
+    let foundation = model.buildings[0].base.foundation.as_mut();
+    foundation.expect("it has a foundation")
 }
 
 fn diagonal(value: f64) -> Vec<Vec<f64>> {

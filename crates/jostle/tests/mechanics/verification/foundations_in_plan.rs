@@ -113,11 +113,11 @@ fn along_an_axis_the_soil_is_that_of_one_plane() {
             foundation(),
             solver,
         ));
-        for (axis, own) in [foundation(), foundation().turned()]
+        for (axis, foundation) in [foundation(), foundation().turned()]
             .into_iter()
             .enumerate()
         {
-            let flat = set(on_soil(plane.clone(), own, solver));
+            let flat = set(on_soil(plane.clone(), foundation, solver));
             let motion = shaking("line", 4.0, 1.0);
             let (known, flat) = run(&flat, &motion);
             let angle = 0.25 * TAU * axis as f64;
@@ -147,9 +147,9 @@ fn along_an_axis_the_soil_is_that_of_one_plane() {
             }
             assert!(deep.energy.worst_imbalance < 1e-9);
             let owner = Owner::Foundation(0);
-            let [a, b] = [&deep, &flat].map(|own| own.peaks.work(owner));
+            let [a, b] = [&deep, &flat].map(|outcome| outcome.peaks.work(owner));
             assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
-            let [deep, flat] = [&deep, &flat].map(|own| own.peaks.owned_by(owner));
+            let [deep, flat] = [&deep, &flat].map(|outcome| outcome.peaks.owned_by(owner));
             let deep = [deep, deep.across()][axis];
             for (found, known) in [
                 (deep.displacement(), flat.displacement()),
@@ -172,8 +172,8 @@ fn along_an_axis_the_soil_is_that_of_one_plane() {
 #[test]
 fn a_foundation_turns_against_its_spring() {
     let plan = rectangle(0.0, 0.0, 12.0, 8.0);
-    let period_of_torsion = |own: Foundation| {
-        let model = on_soil(Structure::Tiers(tiers(&plan)), own, Solver::Riccati);
+    let period_of_torsion = |foundation: Foundation| {
+        let model = on_soil(Structure::Tiers(tiers(&plan)), foundation, Solver::Riccati);
         let system = assembled(&model);
         let building = &system.buildings[0];
         let found = building.foundation_in_plan.expect("it stands on one");
@@ -181,18 +181,21 @@ fn a_foundation_turns_against_its_spring() {
         let turning = modes.find(|mode| mode.effective_mass_ratio_torsion > 0.5);
         (found.springs.torsion, turning.expect("it turns").period())
     };
-    let ([own, dashpot], period) = period_of_torsion(foundation());
+    let ([stiffness, dashpot], period) = period_of_torsion(foundation());
     let formula = 1900.0 * 180.0_f64.powi(2) * 4.5_f64.powi(3);
     let formula = formula * (4.25 * (14.0_f64 / 9.0).powf(2.45) + 4.06);
-    assert!((own / formula - 1.0).abs() < 1e-12, "{own} {formula}");
+    assert!(
+        (stiffness / formula - 1.0).abs() < 1e-12,
+        "{stiffness} {formula}"
+    );
     assert!(dashpot > 0.0);
     let stated = Foundation {
-        torsional_stiffness: Some(own),
+        torsional_stiffness: Some(stiffness),
         torsional_damping: Some(5e6),
         ..foundation()
     };
     let (torsion, same) = period_of_torsion(stated);
-    assert_eq!((torsion, same), ([own, 5e6], period));
+    assert_eq!((torsion, same), ([stiffness, 5e6], period));
     // Nearly rigid above: 2π √(J/k), the footing included.
     let soft = Foundation {
         torsional_stiffness: Some(1e6),
@@ -225,11 +228,14 @@ fn base() -> Base {
 }
 
 pub(super) fn frame(columns_mass: bool) -> Frame {
-    let mut own = plane_frame(3, &[5.0, 7.0], concrete(0.5, 0.5), concrete(0.3, 0.6));
+    let mut plane_frame = plane_frame(3, &[5.0, 7.0], concrete(0.5, 0.5), concrete(0.3, 0.6));
     if !columns_mass {
-        own.columns.iter_mut().for_each(|own| own.line_mass = 0.0);
+        plane_frame
+            .columns
+            .iter_mut()
+            .for_each(|column| column.line_mass = 0.0);
     }
-    own
+    plane_frame
 }
 
 pub(super) fn standing(name: &str, at: PlanPoint, frame: Frame) -> PlanFrame {
@@ -250,7 +256,7 @@ pub(super) fn standing(name: &str, at: PlanPoint, frame: Frame) -> PlanFrame {
 fn frames_at_lines_rock_as_in_one_plane() {
     let slab = 60e3;
     let plan = rectangle(0.0, 0.0, 12.0, 8.0);
-    let own = base();
+    let flexible_base = base();
     let damping = Damping::Rayleigh {
         alpha: 0.3,
         beta: 2e-3,
@@ -270,7 +276,7 @@ fn frames_at_lines_rock_as_in_one_plane() {
     for (solver, mass) in [(Solver::Riccati, true), (Solver::Stiffness, false)] {
         let mut flat = frame(mass);
         flat.floor_mass = vec![0.5 * slab; 3];
-        let half = Foundation::rectangle(12.0, 8.0, 0.5 * own.mass);
+        let half = Foundation::rectangle(12.0, 8.0, 0.5 * flexible_base.mass);
         let flat_base = Base {
             foundation: Some(half),
             ..Base::default()
@@ -301,7 +307,7 @@ fn frames_at_lines_rock_as_in_one_plane() {
             ],
             ..Tiers::default()
         };
-        let deep = model(Structure::Tiers(deep), own, solver);
+        let deep = model(Structure::Tiers(deep), flexible_base, solver);
         let motion = shaking("line", 5.0, 1.0);
         let (_, flat) = run(&flat, &motion);
         let (_, deep) = run(&deep, &motion);
@@ -315,15 +321,15 @@ fn frames_at_lines_rock_as_in_one_plane() {
             assert!(aside < 1e-9 * largest(&known), "{aside:e}");
         }
         assert!(deep.energy.worst_imbalance < 1e-9);
-        let [a, b] = [&deep, &flat].map(|own| own.peaks.base_shear(0));
+        let [a, b] = [&deep, &flat].map(|outcome| outcome.peaks.base_shear(0));
         println!("base shear {a} {b}");
     }
 }
 
 /// Displacements of floors (x, across, rotation) under forces there.
-fn pushed(own: &BuildingSystem, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let floors = own.discretization.floors.iter();
-    let equations = &own.equations;
+fn pushed(system: &BuildingSystem, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let floors = system.discretization.floors.iter();
+    let equations = &system.equations;
     let dofs: Vec<[usize; 3]> = floors
         .map(|floor| {
             let dofs = [
@@ -340,8 +346,8 @@ fn pushed(own: &BuildingSystem, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
             load[*dof] += force;
         }
     }
-    let riccati = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load);
-    let direct = solve_once::<DirectStiffness>(own, &StepMatrix::STATIC, &load);
+    let riccati = solve_once::<RiccatiSweep>(system, &StepMatrix::STATIC, &load);
+    let direct = solve_once::<DirectStiffness>(system, &StepMatrix::STATIC, &load);
     let [riccati, direct] = [riccati, direct].map(|found| found.expect("it stands"));
     assert!(difference(&riccati, &direct) < 1e-8);
     dofs.iter()
@@ -355,17 +361,20 @@ pub(super) fn kinds() -> Vec<(&'static str, Tiers)> {
     all[0].1.floors[2].centre = [5.0, 5.0];
     for flexible in [false, true] {
         all.push(("frames", super::plan_frames::without_symmetry(flexible).0));
-        let own = super::space_frames::Flexible {
+        let flexible = super::space_frames::Flexible {
             axial: flexible,
             shear: true,
         };
-        all.push(("space frame", super::space_frames::without_symmetry(own)));
+        all.push((
+            "space frame",
+            super::space_frames::without_symmetry(flexible),
+        ));
     }
-    let own = super::space_frames::Flexible {
+    let flexible = super::space_frames::Flexible {
         axial: true,
         shear: false,
     };
-    let mut askew = super::space_frames::without_symmetry(own);
+    let mut askew = super::space_frames::without_symmetry(flexible);
     if let Some(frame) = &mut askew.space_frame {
         let (s, c) = 0.4_f64.sin_cos();
         (frame.direction, frame.at) = ([c, s], [1.5, -0.5]);
@@ -378,7 +387,7 @@ pub(super) fn kinds() -> Vec<(&'static str, Tiers)> {
 /// building is made of.
 #[test]
 fn a_base_adds_its_own_displacement_under_static_forces() {
-    let own = Base {
+    let flexible_base = Base {
         across: Some(AcrossBase {
             horizontal_stiffness: Some(2.5e8),
             rotational_stiffness: Some(3e9),
@@ -388,17 +397,17 @@ fn a_base_adds_its_own_displacement_under_static_forces() {
     };
     for (kind, tiers) in kinds() {
         let model = |base: Base| {
-            let mut own = on_soil(
+            let mut soil = on_soil(
                 Structure::Tiers(tiers.clone()),
                 foundation(),
                 Solver::Riccati,
             );
-            own.soil = None;
-            own.buildings[0].damping = UNDAMPED;
-            own.buildings[0].base = base;
-            assembled(&own)
+            soil.soil = None;
+            soil.buildings[0].damping = UNDAMPED;
+            soil.buildings[0].base = base;
+            assembled(&soil)
         };
-        let [fixed, soft] = [Base::default(), own].map(model);
+        let [fixed, soft] = [Base::default(), flexible_base].map(model);
         let lumped = tiers.lumped_floors();
         let middle = PlanArea::new(&tiers.floors[0].plan).centroid;
         let forces: Vec<[f64; 3]> = (0..3)
@@ -407,7 +416,7 @@ fn a_base_adds_its_own_displacement_under_static_forces() {
                 [1e5 * (step + 0.4), 7e4 * (1.3 - step), 3e5 * (step - 0.6)]
             })
             .collect();
-        let [rigid, found] = [&fixed, &soft].map(|own| pushed(&own.buildings[0], &forces));
+        let [rigid, found] = [&fixed, &soft].map(|system| pushed(&system.buildings[0], &forces));
         let (mut sum, mut moment, mut torque, mut height) = ([0.0; 2], [0.0; 2], 0.0, 0.0);
         let mut heights = Vec::new();
         for (floor, force) in forces.iter().enumerate() {
@@ -444,8 +453,8 @@ fn a_base_adds_its_own_displacement_under_static_forces() {
 /// det(K − λM) by elimination.
 fn determinant(stiffness: &[[f64; 5]; 5], mass: &[[f64; 5]; 5], squared: f64) -> f64 {
     let mut a = *stiffness;
-    for (row, own) in a.iter_mut().zip(mass) {
-        for (entry, mass) in row.iter_mut().zip(own) {
+    for (row, mass_row) in a.iter_mut().zip(mass) {
+        for (entry, mass) in row.iter_mut().zip(mass_row) {
             *entry -= squared * mass;
         }
     }
@@ -472,14 +481,16 @@ fn determinant(stiffness: &[[f64; 5]; 5], mass: &[[f64; 5]; 5], squared: f64) ->
 /// their columns, whose products of inertia do not vanish.
 #[test]
 fn stiff_frames_rock_as_a_rigid_body() {
-    let own = base();
+    let flexible_base = base();
     for (kind, mut tiers) in kinds().into_iter().skip(1) {
         for storey in &mut tiers.storeys {
             storey.stiffness = storey.stiffness.map(|value| 1e5 * value);
         }
         let stiff = |section: &mut jostle::Section| {
             section.flexural_rigidity *= 1e5;
-            section.axial_rigidity = section.axial_rigidity.map(|own| 1e5 * own);
+            section.axial_rigidity = section
+                .axial_rigidity
+                .map(|axial_rigidity| 1e5 * axial_rigidity);
         };
         for frame in &mut tiers.frames {
             frame.base = Base::default();
@@ -492,11 +503,15 @@ fn stiff_frames_rock_as_a_rigid_body() {
         }
         if let Some(frame) = &mut tiers.space_frame {
             for member in &mut frame.members {
-                let own: &mut SpaceSection = &mut member.section;
-                own.flexural_rigidity = own.flexural_rigidity.map(|value| 1e5 * value);
-                own.shear_rigidity = own.shear_rigidity.map(|pair| pair.map(|own| 1e5 * own));
-                own.axial_rigidity = own.axial_rigidity.map(|own| 1e5 * own);
-                own.torsional_rigidity *= 1e5;
+                let section: &mut SpaceSection = &mut member.section;
+                section.flexural_rigidity = section.flexural_rigidity.map(|value| 1e5 * value);
+                section.shear_rigidity = section
+                    .shear_rigidity
+                    .map(|pair| pair.map(|pair| 1e5 * pair));
+                section.axial_rigidity = section
+                    .axial_rigidity
+                    .map(|axial_rigidity| 1e5 * axial_rigidity);
+                section.torsional_rigidity *= 1e5;
             }
         }
         let mut model = on_soil(
@@ -506,7 +521,7 @@ fn stiff_frames_rock_as_a_rigid_body() {
         );
         model.soil = None;
         model.buildings[0].damping = UNDAMPED;
-        model.buildings[0].base = own;
+        model.buildings[0].base = flexible_base;
         let system = assembled(&model);
         // Points of the floors' masses, and of columns that carry them.
         let middle = PlanArea::new(&tiers.floors[0].plan).centroid;
@@ -534,10 +549,16 @@ fn stiff_frames_rock_as_a_rigid_body() {
         let area = PlanArea::new(&tiers.floors[0].plan);
         let [across, along] = area
             .second_moments
-            .map(|moment| own.mass * moment / area.area);
-        for (place, inertia) in [own.mass, own.mass, along + across, along, across]
-            .into_iter()
-            .enumerate()
+            .map(|moment| flexible_base.mass * moment / area.area);
+        for (place, inertia) in [
+            flexible_base.mass,
+            flexible_base.mass,
+            along + across,
+            along,
+            across,
+        ]
+        .into_iter()
+        .enumerate()
         {
             mass[place][place] += inertia;
         }
@@ -564,18 +585,25 @@ fn stiff_frames_rock_as_a_rigid_body() {
 /// Where columns reach a floor; of frames at lines of a plan and of space frames.
 fn columns_at(tiers: &Tiers, floor: usize) -> Vec<PlanPoint> {
     let mut found = Vec::new();
-    for own in &tiers.frames {
-        let frame = &own.frame;
+    for plan_frame in &tiers.frames {
+        let frame = &plan_frame.frame;
         if floor < frame.storey_heights.len() {
             let lines = frame.line_positions();
-            found.extend(lines.iter().map(|along| own.point_at(*along)));
+            found.extend(lines.iter().map(|along| plan_frame.point_at(*along)));
         }
     }
     if let Some(frame) = &tiers.space_frame {
-        found.extend(frame.members.iter().filter_map(|own| match own.place {
-            SpacePlace::Column { line, storey } if storey == floor => Some(frame.point(line)),
-            _ => None,
-        }));
+        found.extend(
+            frame
+                .members
+                .iter()
+                .filter_map(|member| match member.place {
+                    SpacePlace::Column { line, storey } if storey == floor => {
+                        Some(frame.point(line))
+                    }
+                    _ => None,
+                }),
+        );
     }
     found
 }
@@ -590,12 +618,15 @@ fn damping_is_relative_to_the_foundation() {
             Solver::Riccati,
         );
         let system = assembled(&model);
-        let own = &system.buildings[0];
-        let equations = &own.equations;
+        let building = &system.buildings[0];
+        let equations = &building.equations;
         assert!(equations.alpha > 0.0);
-        let springs = own.foundation_in_plan.expect("it stands on one").springs;
+        let springs = building
+            .foundation_in_plan
+            .expect("it stands on one")
+            .springs;
         // Forces on the base alone move everything as a rigid body.
-        let base = own
+        let base = building
             .discretization
             .stick_model
             .plan_base
@@ -611,7 +642,7 @@ fn damping_is_relative_to_the_foundation() {
         ] {
             load[dof.expect("it moves")] += force;
         }
-        let moved = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load);
+        let moved = solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load);
         let moved = moved.expect("it stands");
         let inertia: f64 = equations
             .mass
@@ -624,7 +655,7 @@ fn damping_is_relative_to_the_foundation() {
             + equations.beta * strained
             + equations.dashpots.quadratic_form(&moved);
         // What the springs of the soil do not bear of the same motion, their dashpots take.
-        let motions = rigid_motion(own, &moved);
+        let motions = rigid_motion(building, &moved);
         let soil = [
             springs.along.sway_damping,
             springs.across.sway_damping,
@@ -643,14 +674,14 @@ fn damping_is_relative_to_the_foundation() {
 }
 
 /// Sway along and across of the middle of the footing, its rotation, and rocking, from the motion of the footing and of the floors.
-fn rigid_motion(own: &BuildingSystem, moved: &[f64]) -> [f64; 5] {
-    let base = own
+fn rigid_motion(system: &BuildingSystem, moved: &[f64]) -> [f64; 5] {
+    let base = system
         .discretization
         .stick_model
         .plan_base
         .expect("it has one");
     let of = |node: usize| {
-        let equations = &own.equations;
+        let equations = &system.equations;
         let dofs = [
             equations.horizontal(node),
             equations.vertical(node),
@@ -661,11 +692,11 @@ fn rigid_motion(own: &BuildingSystem, moved: &[f64]) -> [f64; 5] {
     let [x, y, turned] = of(base.footing);
     let arm = [0, 1].map(|axis| base.middle[axis] - base.centre[axis]);
     let (x, y) = (x - turned * arm[1], y + turned * arm[0]);
-    let roof = own.floors.len() - 1;
-    let [roof_x, roof_y, _] = of(own.discretization.floors[roof]);
-    let centre = own.discretization.centres[roof];
+    let roof = system.floors.len() - 1;
+    let [roof_x, roof_y, _] = of(system.discretization.floors[roof]);
+    let centre = system.discretization.centres[roof];
     let arm = [0, 1].map(|axis| centre[axis] - base.middle[axis]);
-    let height = own.floors[roof].height;
+    let height = system.floors[roof].height;
     let leant = [
         (roof_x - x + turned * arm[1]) / height,
         (roof_y - y - turned * arm[0]) / height,
@@ -692,11 +723,13 @@ fn what_a_foundation_in_plan_cannot_have_is_refused() {
         );
     };
     let mut lifts = sound.clone();
-    foundation_of(&mut lifts, &|own| {
-        own.uplift = Some(jostle::Uplift::with_springs(5));
+    foundation_of(&mut lifts, &|foundation| {
+        foundation.uplift = Some(jostle::Uplift::with_springs(5));
     });
     let mut negative = sound.clone();
-    foundation_of(&mut negative, &|own| own.torsional_damping = Some(-1.0));
+    foundation_of(&mut negative, &|foundation| {
+        foundation.torsional_damping = Some(-1.0)
+    });
     let mut bare = sound.clone();
     bare.soil = None;
     let mut coupled = sound.clone();

@@ -62,7 +62,7 @@ fn coupled(storeys: usize, yields: bool) -> Frame {
         shear_rigidity: Some(8e8),
         ..bending(4e7)
     };
-    let mut own = Frame {
+    let mut frame = Frame {
         storey_heights: vec![3.0; storeys],
         spans: vec![5.0, 4.0],
         columns: vec![
@@ -88,17 +88,17 @@ fn coupled(storeys: usize, yields: bool) -> Frame {
         energy_damage: 0.0,
     });
     for storey in 0..storeys {
-        own.own_columns.insert([storey, 0], Some(section(3.0)));
-        own.own_columns.insert([storey, 1], Some(section(2.0)));
+        frame.own_columns.insert([storey, 0], Some(section(3.0)));
+        frame.own_columns.insert([storey, 1], Some(section(2.0)));
         let rule = [HysteresisRule::Bilinear, pinched][storey % 2];
-        own.coupling_beams.push(CouplingBeam {
+        frame.coupling_beams.push(CouplingBeam {
             floor: storey + 1,
             bay: 1,
             shear: yields.then(|| law(rule, 3e8, 8e4, 0.03)),
             stiffness_factors: [1.0; 2],
         });
     }
-    own
+    frame
 }
 
 fn alone(frame: Frame) -> Model {
@@ -138,12 +138,12 @@ fn shaken(model: &Model) -> (System, Outcome) {
 /// How far the first floor sways under a unit force there.
 fn sway(frame: &Frame) -> f64 {
     let system = assembled(&alone(frame.clone()));
-    let own = &system.buildings[0];
-    let mut load = vec![0.0; own.equations.len()];
-    load[own.floors[0].dof] = 1.0;
-    let moved =
-        solve_once::<RiccatiSweep>(&own.structure, &StepMatrix::STATIC, &load).expect("it stands");
-    moved[own.floors[0].dof]
+    let building = &system.buildings[0];
+    let mut load = vec![0.0; building.equations.len()];
+    load[building.floors[0].dof] = 1.0;
+    let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load)
+        .expect("it stands");
+    moved[building.floors[0].dof]
 }
 
 /// Two equal walls of one storey with a coupling beam on rigid arms: by symmetry each is a cantilever with half of the force F, held at
@@ -152,7 +152,7 @@ fn sway(frame: &Frame) -> f64 {
 fn a_pair_of_walls_sways_as_in_closed_form() {
     let (height, span, length) = (4.0_f64, 6.0, 2.5);
     let (wall_ei, wall_ga, beam_ei, beam_ga) = (4e9, 9e8, 5e7, 3e8);
-    let mut own = Frame {
+    let mut frame = Frame {
         storey_heights: vec![height],
         spans: vec![span],
         columns: vec![Section {
@@ -169,10 +169,10 @@ fn a_pair_of_walls_sways_as_in_closed_form() {
         beam_segments: vec![1],
         ..Frame::default()
     };
-    let section = own.columns[0];
+    let section = frame.columns[0];
     for line in 1..=2 {
-        own.own_columns.insert([0, line - 1], Some(section));
-        own.walls.push(FrameWall {
+        frame.own_columns.insert([0, line - 1], Some(section));
+        frame.walls.push(FrameWall {
             line,
             storeys: [1, 1],
             length,
@@ -189,18 +189,18 @@ fn a_pair_of_walls_sways_as_in_closed_form() {
     let theta = force * height * turned / 2.0 / (1.0 + beam * turned);
     let moved = force * height.powi(3) / (3.0 * wall_ei) + force * height / wall_ga
         - beam * theta * height * turned / 2.0;
-    close(sway(&own), moved, moved, 1e-12, "sway");
+    close(sway(&frame), moved, moved, 1e-12, "sway");
     // Shear deformation as a spring is the same as long as it does not yield.
-    for wall in &mut own.walls {
+    for wall in &mut frame.walls {
         wall.shear = Some(law(HysteresisRule::Bilinear, wall_ga / height, 1e9, 0.1));
     }
-    own.coupling_beams.push(CouplingBeam {
+    frame.coupling_beams.push(CouplingBeam {
         floor: 1,
         bay: 1,
         shear: Some(law(HysteresisRule::Bilinear, beam_ga / clear, 1e9, 0.1)),
         stiffness_factors: [1.0; 2],
     });
-    close(sway(&own), moved, moved, 1e-12, "sway over springs");
+    close(sway(&frame), moved, moved, 1e-12, "sway over springs");
 }
 
 /// Rigid walls on hinges with a coupling beam that yields: the storey is a spring of (k₁ + k₂ + V(L θ) L/θ)/h² with the distance L between
@@ -274,8 +274,8 @@ fn a_coupling_beam_yields_over_the_distance_of_its_walls() {
     };
     let (_, moved, of_walls) = summary(&as_walls);
     let (_, _, of_storey) = summary(&as_storey);
-    let [own, storey] = [&of_walls, &of_storey].map(|own| &own.buildings[0]);
-    let [own_floor, floor] = [own, storey].map(|own| own.floors.above[0].response);
+    let [building, storey] = [&of_walls, &of_storey].map(|summary| &summary.buildings[0]);
+    let [own_floor, floor] = [building, storey].map(|building| building.floors.above[0].response);
     close(
         own_floor.displacement_max_m,
         floor.displacement_max_m,
@@ -284,13 +284,13 @@ fn a_coupling_beam_yields_over_the_distance_of_its_walls() {
         "displacement",
     );
     close(
-        own.response.base_shear_peak_n,
+        building.response.base_shear_peak_n,
         storey.response.base_shear_peak_n,
         storey.response.base_shear_peak_n,
         1e-6,
         "base shear",
     );
-    let beam = own.parts.last().expect("the coupling beam");
+    let beam = building.parts.last().expect("the coupling beam");
     assert_eq!(beam.name, "A.coupling-beam.1.1");
     assert!(beam.dissipated_j > 1e3, "{} J", beam.dissipated_j);
     // Both do the same work; what they give back is that of their own initial stiffness.
@@ -315,7 +315,7 @@ fn a_coupling_beam_yields_over_the_distance_of_its_walls() {
     let force = beam.force_max_n.max(-beam.force_min_n);
     close(force, shear, shear, 1e-6, "shear of the beam");
     // Axial forces of the walls are that shear, and their couple is V L beside the moments k θ.
-    let wall = &own.parts[0];
+    let wall = &building.parts[0];
     assert_eq!((&wall.name[..], wall.kind), ("A.wall.1", "wall"));
     close(
         wall.force_max_n.max(-wall.force_min_n),
@@ -327,7 +327,7 @@ fn a_coupling_beam_yields_over_the_distance_of_its_walls() {
     let moments = (k[0] + k[1]) * most / height;
     let share = shear * span / (shear * span + moments);
     close(
-        own.degree_of_coupling.expect("coupled walls"),
+        building.degree_of_coupling.expect("coupled walls"),
         share,
         1.0,
         1e-6,
@@ -379,9 +379,9 @@ fn walls_yield_in_shear_as_a_storey() {
     of_storey.buildings[0].hinges = Some(jostle::Hinges::Storeys(vec![both]));
     of_storey.analysis.members = MemberRequest::default();
     let [a, b] = [of_walls, of_storey].map(|model| shaken(&model).1);
-    let [a, b] = [a, b].map(|own| {
-        let floor = own.peaks.floor(0, 1);
-        let dissipated = own.energy.hysteretic;
+    let [a, b] = [a, b].map(|outcome| {
+        let floor = outcome.peaks.floor(0, 1);
+        let dissipated = outcome.energy.hysteretic;
         [
             floor.displacement_max().value,
             floor.storey_shear(),
@@ -405,8 +405,8 @@ fn walls_bear_what_beams_bring_to_their_faces() {
         for column in stiff.column_sections_mut() {
             column.axial_rigidity = Some(1e14);
         }
-        let [a, b] = [rigid, stiff].map(|own| {
-            let mut model = alone(own);
+        let [a, b] = [rigid, stiff].map(|frame| {
+            let mut model = alone(frame);
             model.buildings[0].damping = Damping::Rayleigh {
                 alpha: 0.4,
                 beta: 0.0,
@@ -414,15 +414,23 @@ fn walls_bear_what_beams_bring_to_their_faces() {
             shaken(&model)
         });
         let axial = |(system, outcome): &(System, Outcome)| -> Vec<[f64; 2]> {
-            let own = &system.buildings[0].members;
-            let columns = own.members.iter().filter(|own| own.place.is_column());
-            let axial = columns.map(|own| outcome.members[0][own.sections[0].forms[0]]);
+            let members = &system.buildings[0].members;
+            let columns = members
+                .members
+                .iter()
+                .filter(|member| member.place.is_column());
+            let axial = columns.map(|column| outcome.members[0][column.sections[0].forms[0]]);
             axial
-                .chain(own.walls.iter().map(|own| outcome.members[0][own.axial]))
+                .chain(
+                    members
+                        .walls
+                        .iter()
+                        .map(|wall| outcome.members[0][wall.axial]),
+                )
                 .collect()
         };
         let (a, b) = (axial(&a), axial(&b));
-        let most = (a.iter().flatten()).fold(0.0_f64, |most, own| most.max(own.abs()));
+        let most = (a.iter().flatten()).fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(a.len() == 11 && most > 1e5, "{most}");
         for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
             close(*a, *b, most, 2e-3, "axial force");
@@ -454,13 +462,13 @@ fn both_eliminations_agree() {
 #[test]
 fn moments_at_the_base_add_up_to_the_overturning_moment() {
     for (yields, beams_flexible) in [(false, false), (true, false), (true, true)] {
-        let mut own = coupled(4, yields);
-        own.axial = Axial {
+        let mut frame = coupled(4, yields);
+        frame.axial = Axial {
             columns_flexible: false,
             beams_flexible,
         };
-        own.beam_mass = vec![0.0; 4];
-        let mut model = alone(own);
+        frame.beam_mass = vec![0.0; 4];
+        let mut model = alone(frame);
         model.buildings[0].damping = Damping::Rayleigh {
             alpha: 0.3,
             beta: 0.0,
@@ -483,9 +491,9 @@ fn moments_at_the_base_add_up_to_the_overturning_moment() {
 #[test]
 fn weight_does_not_couple_walls() {
     let [light, heavy] = [false, true].map(|preload| {
-        let mut own = coupled(4, false);
-        own.axial.columns_flexible = true;
-        let mut model = alone(own);
+        let mut frame = coupled(4, false);
+        frame.axial.columns_flexible = true;
+        let mut model = alone(frame);
         model.analysis.solver = Some(Solver::Riccati);
         model.analysis.step = Some(1e-3);
         model.buildings[0].gravity = Gravity {
@@ -495,9 +503,13 @@ fn weight_does_not_couple_walls() {
         let motion = fading("along", 9.0, [2.5, 3.0], 500);
         runs::run_and_summary(&model, &motion).2
     });
-    let degree = |own: &Summary| own.buildings[0].degree_of_coupling.expect("coupled walls");
+    let degree = |summary: &Summary| {
+        summary.buildings[0]
+            .degree_of_coupling
+            .expect("coupled walls")
+    };
     close(degree(&heavy), degree(&light), 1.0, 1e-8, "coupling");
-    let wall = |own: &Summary| own.buildings[0].parts[0].clone();
+    let wall = |summary: &Summary| summary.buildings[0].parts[0].clone();
     let (light, heavy) = (wall(&light), wall(&heavy));
     let weight = light.force_max_n - heavy.force_max_n;
     assert!(
@@ -551,14 +563,14 @@ fn walls_stand_on_a_foundation() {
 #[test]
 fn frames_in_a_plan_have_the_same_walls() {
     for yields in [false, true] {
-        let mut own = coupled(3, yields);
-        for column in own.column_sections_mut() {
+        let mut frame = coupled(3, yields);
+        for column in frame.column_sections_mut() {
             column.line_mass = 0.0;
         }
-        own.beam_mass = vec![0.0; 3];
-        own.floor_mass = vec![0.0; 3];
-        own.column_segments = 1;
-        own.beam_segments = vec![1; 2];
+        frame.beam_mass = vec![0.0; 3];
+        frame.floor_mass = vec![0.0; 3];
+        frame.column_segments = 1;
+        frame.beam_segments = vec![1; 2];
         let standing = |name: &str, y: f64| PlanFrame {
             name: name.to_owned(),
             at: [0.0, y],
@@ -566,7 +578,7 @@ fn frames_in_a_plan_have_the_same_walls() {
             lines: Vec::new(),
             base: Base::default(),
             hinges: FrameHinges::default(),
-            frame: own.clone(),
+            frame: frame.clone(),
         };
         let across = PlanFrame {
             at: [4.5, 0.0],
@@ -577,18 +589,18 @@ fn frames_in_a_plan_have_the_same_walls() {
                 own_columns: Default::default(),
                 spans: vec![8.0],
                 beam_segments: vec![1],
-                ..own.clone()
+                ..frame.clone()
             },
             ..standing("across", 0.0)
         };
         let tier = Tier::uniform(60e3, rectangle(0.0, 0.0, 9.0, 8.0)).expect("an area");
         let tiers = Tiers {
             floors: vec![tier; 3],
-            storey_heights: own.storey_heights.clone(),
+            storey_heights: frame.storey_heights.clone(),
             frames: vec![standing("front", 0.0), standing("back", 8.0), across],
             ..Tiers::default()
         };
-        let mut plane = own.clone();
+        let mut plane = frame.clone();
         plane.floor_mass = vec![30e3; 3];
         let motion = fading("along", 9.0, [2.5, 3.0], 500);
         let [space, plane] = [Structure::Tiers(tiers), Structure::Frame(plane)].map(|structure| {
@@ -598,7 +610,7 @@ fn frames_in_a_plan_have_the_same_walls() {
             model.analysis.step = Some(1e-3);
             runs::run_and_summary(&model, &motion).2
         });
-        let [a, b] = [&space, &plane].map(|own| &own.buildings[0]);
+        let [a, b] = [&space, &plane].map(|summary| &summary.buildings[0]);
         for (a, b) in a.floors.above.iter().zip(&b.floors.above) {
             let most = b.response.displacement_max_m;
             close(
@@ -629,9 +641,9 @@ fn frames_in_a_plan_have_the_same_walls() {
 #[test]
 fn walls_carry_all_that_lies_above_them() {
     for columns_flexible in [false, true] {
-        let mut own = coupled(3, false);
-        own.axial.columns_flexible = columns_flexible;
-        let system = assembled(&alone(own.clone()));
+        let mut frame = coupled(3, false);
+        frame.axial.columns_flexible = columns_flexible;
+        let system = assembled(&alone(frame.clone()));
         let building = &system.buildings[0].structure;
         let carried = compressions(building, STANDARD_GRAVITY).expect("it stands");
         let sticks = &building.discretization.stick_model;
@@ -708,9 +720,9 @@ fn walls_yield_above_their_feet_as_wide_columns() {
         let moment = share * 1.0e6;
         law(HysteresisRule::Bilinear, 4e10, moment, 0.03)
     });
-    let own = coupled(storeys, false);
+    let with_factors = coupled(storeys, false);
     // Without arms: a wall of no length is a column.
-    let mut thin = own.clone();
+    let mut thin = with_factors.clone();
     thin.coupling_beams.clear();
     for wall in &mut thin.walls {
         wall.length = 1e-9;
@@ -730,7 +742,7 @@ fn walls_yield_above_their_feet_as_wide_columns() {
     }
     let elastic = law(HysteresisRule::Bilinear, 1e16, 1e20, 1.0);
     let of_columns = (0..storeys).map(|_| {
-        let lines = (1..=3).map(|line| match walls.iter().any(|own| own.line == line) {
+        let lines = (1..=3).map(|line| match walls.iter().any(|wall| wall.line == line) {
             true => hinges(line),
             false => elastic,
         });

@@ -54,9 +54,9 @@ fn least(system: &System) -> f64 {
     let limits = system
         .contacts
         .iter()
-        .filter_map(|own| own.friction.as_ref());
+        .filter_map(|contact| contact.friction.as_ref());
     limits
-        .map(|own| own.unique_below)
+        .map(|limit| limit.unique_below)
         .fold(f64::INFINITY, f64::min)
 }
 
@@ -92,9 +92,9 @@ fn beyond_the_limit_a_pushed_floor_moves_into_the_wall() {
     };
     let parts = |coefficient: f64| {
         // Points between the middle and the ends have less room than the ends where the mass lies near the centre.
-        let mut points = system.contacts.iter().filter_map(|own| own.plan);
-        points.all(|own| {
-            let at = own.at;
+        let mut points = system.contacts.iter().filter_map(|contact| contact.plan);
+        points.all(|point| {
+            let at = point.at;
             [-coefficient, coefficient]
                 .into_iter()
                 .all(|along| normal_acceleration(&tiers.floors[0], at, along) < 0.0)

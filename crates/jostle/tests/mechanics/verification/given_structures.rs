@@ -236,7 +236,7 @@ fn a_frame_given_by_all_its_displacements_gives_the_same_numbers() {
     }
     let system = assembled(&frames);
     let mut model = frames.clone();
-    for (own, building) in model.buildings.iter_mut().zip(&system.buildings) {
+    for (building_model, building) in model.buildings.iter_mut().zip(&system.buildings) {
         let equations = &building.equations;
         let n = equations.len();
         let mut heights = vec![0.0; n];
@@ -268,14 +268,14 @@ fn a_frame_given_by_all_its_displacements_gives_the_same_numbers() {
         reversed[0][halved] *= 0.25;
         reversed.iter_mut().for_each(|list| list.reverse());
         let [mass, heights, influence] = reversed;
-        own.structure = Structure::Given(Given {
+        building_model.structure = Structure::Given(Given {
             mass,
             stiffness,
             damping: Vec::new(),
             influence,
             heights,
             floors: building.floor_dofs.iter().map(|dof| place(*dof)).collect(),
-            storey_heights: own.storey_heights().to_vec(),
+            storey_heights: building_model.storey_heights().to_vec(),
         });
     }
     let matrices = assembled(&model);
@@ -319,12 +319,12 @@ fn a_frame_given_by_all_its_displacements_gives_the_same_numbers() {
 #[test]
 fn a_damping_matrix_acts_as_dashpots() {
     let stiffness = vec![vec![9e7, -4e7], vec![-4e7, 4e7]];
-    let mut own = Given::condensed(vec![5e4, 4e4], &stiffness, vec![3.0; 2]);
-    own.damping = vec![(0, 0, 9e5), (1, 0, -2e5), (1, 1, 3e5)];
+    let mut given = Given::condensed(vec![5e4, 4e4], &stiffness, vec![3.0; 2]);
+    given.damping = vec![(0, 0, 9e5), (1, 0, -2e5), (1, 1, 3e5)];
     let mut model = pair(Structure::Shear);
     model.buildings.truncate(1);
     model.gaps.clear();
-    model.buildings[0].structure = Structure::Given(own);
+    model.buildings[0].structure = Structure::Given(given);
     model.buildings[0].damping = UNDAMPED;
     let system = assembled(&model);
     let [modal, direct] = [Solver::Modal, Solver::Riccati].map(|solver| {

@@ -48,11 +48,13 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
 }
 
 pub(crate) fn arriving(mut motion: GroundMotion, arrivals: &[f64]) -> GroundMotion {
-    let own = arrivals.iter().map(|arrival| OwnGround {
+    let grounds = arrivals.iter().map(|arrival| OwnGround {
         arrival: *arrival,
         ..OwnGround::default()
     });
-    motion.grounds = Some(Box::new(Grounds { own: own.collect() }));
+    motion.grounds = Some(Box::new(Grounds {
+        own: grounds.collect(),
+    }));
     motion
 }
 

@@ -20,7 +20,7 @@ fn differing(mut motion: GroundMotion) -> GroundMotion {
         duration: motion.duration,
         ..shaking("other", 6.1)
     };
-    let own = vec![
+    let grounds = vec![
         OwnGround::default(),
         OwnGround {
             arrival: 0.05,
@@ -31,7 +31,7 @@ fn differing(mut motion: GroundMotion) -> GroundMotion {
             ..OwnGround::default()
         },
     ];
-    motion.grounds = Some(Box::new(Grounds { own }));
+    motion.grounds = Some(Box::new(Grounds { own: grounds }));
     motion
 }
 
@@ -62,10 +62,10 @@ fn a_site_turned_by_a_right_angle_has_the_same_impacts() {
         let mut gaps = gaps.clone();
         gaps.iter_mut()
             .for_each(|gap| gap.in_plan.friction = friction);
-        let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+        let (_, one) = run(&model(buildings.clone(), gaps.clone()), &motion);
         let (_, other) = run(&model(turned.clone(), gaps), &turned_motion);
-        assert!(own.energy.ground.abs() > 100.0, "{}", own.energy.ground);
-        same(&own, &other, [0, 1, 2], "turned");
+        assert!(one.energy.ground.abs() > 100.0, "{}", one.energy.ground);
+        same(&one, &other, [0, 1, 2], "turned");
     }
 }
 
@@ -87,9 +87,9 @@ fn a_site_turned_by_any_angle_has_the_same_impacts() {
     let turned = changed(&buildings, turn, false, |k| k);
     let mut turned_motion = motion.clone();
     turned_motion.bearing.as_mut().expect("a bearing").angle += angle;
-    let (_, own) = run(&model(buildings, gaps.clone()), &motion);
+    let (_, one) = run(&model(buildings, gaps.clone()), &motion);
     let (_, other) = run(&model(turned, gaps), &turned_motion);
-    same(&own, &other, [0, 1, 2], "turned by 0.55 rad");
+    same(&one, &other, [0, 1, 2], "turned by 0.55 rad");
 }
 
 fn make_isotropic(building: &mut Building) {
@@ -173,13 +173,13 @@ fn grounds_carry_a_corner_off_its_edge() {
         grounds: None,
     };
     // To the left and upwards alike.
-    let own = OwnGround {
+    let ground = OwnGround {
         motion: Some(sine(1.0, Some(0.75 * PI))),
         ..OwnGround::default()
     };
     let mut motion = sine(1e-9, None);
     motion.grounds = Some(Box::new(Grounds {
-        own: vec![OwnGround::default(), own],
+        own: vec![OwnGround::default(), ground],
     }));
     let instant = |distance: f64| {
         let moved = |t: f64| (t - (PI * t).sin() / PI) / PI * 0.5_f64.sqrt();

@@ -81,11 +81,14 @@ fn impacts_are_fastest_between_the_natural_frequencies_and_each_tower_is_calmed_
         fastest.1,
         fastest.0
     );
-    for own in [0, 1] {
-        let near = |(frequency, _): &&(f64, _)| (frequency / NATURAL[own] - 1.0).abs() < 0.06;
+    for tower in [0, 1] {
+        let near = |(frequency, _): &&(f64, _)| (frequency / NATURAL[tower] - 1.0).abs() < 0.06;
         for (frequency, ratio) in ratios.iter().filter(near) {
-            assert!(ratio[own] < 0.5, "{own} at {frequency} Hz: {ratio:?}");
-            assert!(ratio[1 - own] > 2.0, "{own} at {frequency} Hz: {ratio:?}");
+            assert!(ratio[tower] < 0.5, "{tower} at {frequency} Hz: {ratio:?}");
+            assert!(
+                ratio[1 - tower] > 2.0,
+                "{tower} at {frequency} Hz: {ratio:?}"
+            );
         }
     }
 }

@@ -45,10 +45,16 @@ fn frame(storeys: usize, spans: &[f64]) -> Frame {
 }
 
 fn massless(mut frame: Frame) -> Frame {
-    frame.columns.iter_mut().for_each(|own| own.line_mass = 0.0);
+    frame
+        .columns
+        .iter_mut()
+        .for_each(|column| column.line_mass = 0.0);
     frame.beam_mass.iter_mut().for_each(|mass| *mass = 0.0);
     frame.column_segments = 1;
-    frame.beam_segments.iter_mut().for_each(|own| *own = 1);
+    frame
+        .beam_segments
+        .iter_mut()
+        .for_each(|beam_segment| *beam_segment = 1);
     frame
 }
 
@@ -119,8 +125,8 @@ fn along(outcome: &Outcome, floors: usize) -> Vec<f64> {
 /// Peaks of all forces at the ends of columns and beams of a frame; axial forces of columns follow from shears of beams.
 fn member_peaks(system: &System, outcome: &Outcome, frame: Option<usize>) -> Vec<f64> {
     let members = system.buildings[0].members.members.iter();
-    let own = members.filter(|member| member.frame == frame);
-    let forms = own.flat_map(|member| {
+    let members = members.filter(|member| member.frame == frame);
+    let forms = members.flat_map(|member| {
         let skip = usize::from(matches!(member.place, MemberPlace::Beam { .. }));
         let ends = member.sections.iter();
         let ends = ends.filter(|section| matches!(section.at, SectionAt::First | SectionAt::Last));
@@ -186,8 +192,8 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
     let one = frame(storeys, &spans);
     let lines = spans.len() as f64 + 1.0;
     let column_mass = |storey: usize| {
-        let own = one.columns.get(storey);
-        own.map_or(0.0, |own| lines * 0.5 * own.line_mass * 3.2)
+        let column = one.columns.get(storey);
+        column.map_or(0.0, |column| lines * 0.5 * column.line_mass * 3.2)
     };
     let mut plane = one.clone();
     for floor in 0..storeys {
@@ -231,7 +237,7 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
             );
             let (plane_system, flat) = run(&flat, &motion);
             for solver in [Solver::Riccati, Solver::Stiffness] {
-                let own = model(
+                let model = model(
                     Structure::Tiers(tiers.clone()),
                     None,
                     damping.clone(),
@@ -239,8 +245,8 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
                     solver,
                     step,
                 );
-                let (system, deep) = run(&own, &motion);
-                let [a, b] = [&system, &plane_system].map(|own| &own.buildings[0]);
+                let (system, deep) = run(&model, &motion);
+                let [a, b] = [&system, &plane_system].map(|system| &system.buildings[0]);
                 let mass = a.equations.total_mass() / b.equations.total_mass();
                 assert!((mass - 2.0).abs() < 1e-12, "{mass}");
                 for (a, b) in [
@@ -434,32 +440,36 @@ fn add_bearings(full: &mut Full, centre: PlanPoint, value: f64) {
 }
 
 /// Degrees of freedom of the mat, then of the floors.
-fn moving(own: &BuildingSystem) -> Vec<usize> {
-    let n = own.floors.len();
-    let mat = own.mat_in_plan.as_ref().expect("isolated").dofs;
-    let floors = (0..n).flat_map(|floor| [0, 1, 2].map(|c| own.tracks[c * n + floor].dof));
+fn moving(system: &BuildingSystem) -> Vec<usize> {
+    let n = system.floors.len();
+    let mat = system.mat_in_plan.as_ref().expect("isolated").dofs;
+    let floors = (0..n).flat_map(|floor| [0, 1, 2].map(|c| system.tracks[c * n + floor].dof));
     mat.into_iter().chain(floors).collect()
 }
 
 /// Displacements under a unit force at every motion of the mat and of the floors, by both solvers.
 #[track_caller]
 fn same_flexibility(model: &Model, full: &Full) {
-    let own = &assembled(model).buildings[0];
-    let dofs = moving(own);
+    let building = &assembled(model).buildings[0];
+    let dofs = moving(building);
     let expected = full.flexibility(dofs.len());
     let scale = |i: usize, j: usize| (expected[i][i] * expected[j][j]).sqrt();
     for (j, dof) in dofs.iter().enumerate() {
-        let mut load = vec![0.0; own.equations.len()];
+        let mut load = vec![0.0; building.equations.len()];
         load[*dof] = 1.0;
-        let found = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
+        let found =
+            solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load).expect("it stands");
         for (i, dof) in dofs.iter().enumerate() {
             let apart = (found[*dof] - expected[i][j]).abs() / scale(i, j);
             assert!(apart < 1e-9, "{i} by {j}: {apart:e}");
         }
     }
     // Periods: every shape fits, and Σ 1/ω² is the trace of the flexibility times the masses.
-    let mass: Vec<f64> = dofs.iter().map(|dof| own.equations.mass[*dof]).collect();
-    for mode in &own.modes {
+    let mass: Vec<f64> = dofs
+        .iter()
+        .map(|dof| building.equations.mass[*dof])
+        .collect();
+    for mode in &building.modes {
         let square = mode.circular_frequency.powi(2);
         let shape: Vec<f64> = dofs.iter().map(|dof| mode.shape[*dof]).collect();
         for (i, row) in expected.iter().enumerate() {
@@ -469,7 +479,10 @@ fn same_flexibility(model: &Model, full: &Full) {
         }
     }
     let trace: f64 = (0..dofs.len()).map(|i| expected[i][i] * mass[i]).sum();
-    let squares = own.modes.iter().map(|own| own.circular_frequency.powi(-2));
+    let squares = building
+        .modes
+        .iter()
+        .map(|mode| mode.circular_frequency.powi(-2));
     let sum: f64 = squares.sum();
     assert!((sum / trace - 1.0).abs() < 1e-9, "{sum} and {trace}");
 }
@@ -483,9 +496,9 @@ fn three_frames() -> Tiers {
     let mut lower = frame(1, &[8.0]);
     lower.storey_heights = vec![4.0];
     let two = |spans: &[f64]| {
-        let mut own = frame(2, spans);
-        own.storey_heights = vec![4.0, 3.2];
-        own
+        let mut frame = frame(2, spans);
+        frame.storey_heights = vec![4.0, 3.2];
+        frame
     };
     let frames = vec![
         standing("1", [0.0, 0.5], 0.0, massless(two(&[6.0, 5.0]))),
@@ -501,30 +514,31 @@ fn three_frames() -> Tiers {
 /// their length.
 fn matrix_of_three_frames(tiers: &Tiers, mat: PlanPoint) -> Full {
     let centres = [mat, tiers.floors[0].centre, tiers.floors[1].centre];
-    let joints = |own: &PlanFrame| (own.frame.spans.len() + 1) * own.frame.storey_heights.len();
+    let joints =
+        |frame: &PlanFrame| (frame.frame.spans.len() + 1) * frame.frame.storey_heights.len();
     let count = 9 + tiers.frames.iter().map(joints).sum::<usize>();
     let mut full = Full::new(count);
     let mut next = 9;
-    for own in &tiers.frames {
-        let lines = own.frame.spans.len() + 1;
+    for frame in &tiers.frames {
+        let lines = frame.frame.spans.len() + 1;
         let sway = |full: &Full, level: usize| {
-            let [x, y] = at_place(full, 3 * level, centres[level], own.at);
-            summed(&[(own.direction[0], &x), (own.direction[1], &y)])
+            let [x, y] = at_place(full, 3 * level, centres[level], frame.at);
+            summed(&[(frame.direction[0], &x), (frame.direction[1], &y)])
         };
         let mut below: Vec<Row> = vec![full.zero(); lines];
-        for (storey, height) in own.frame.storey_heights.iter().enumerate() {
+        for (storey, height) in frame.frame.storey_heights.iter().enumerate() {
             let turns: Vec<Row> = (0..lines).map(|line| full.unit(next + line)).collect();
             next += lines;
             let [low, high] = [storey, storey + 1].map(|level| sway(&full, level));
             for line in 0..lines {
                 // Slopes over the height are rotations turned clockwise.
-                let rigidity = own.frame.columns[storey].flexural_rigidity;
+                let rigidity = frame.frame.columns[storey].flexural_rigidity;
                 let [a, b] = [&below[line], &turns[line]].map(|turn| summed(&[(-1.0, turn)]));
                 full.beam(rigidity, None, *height, [&low, &a, &high, &b]);
             }
             let still = full.zero();
-            for (bay, span) in own.frame.spans.iter().enumerate() {
-                let rigidity = own.frame.beams[storey].flexural_rigidity;
+            for (bay, span) in frame.frame.spans.iter().enumerate() {
+                let rigidity = frame.frame.beams[storey].flexural_rigidity;
                 let rows = [&still, &turns[bay], &still, &turns[bay + 1]];
                 full.beam(rigidity, None, *span, rows);
             }
@@ -595,14 +609,14 @@ fn inverse(matrix: &[Row]) -> Vec<Row> {
 
 /// Tᵀ m T of a floor that moves relative to the mat, added to a matrix.
 fn add_relative(to: &mut Full, floor: usize, masses: [f64; 3], centre: PlanPoint, mat: PlanPoint) {
-    let own = at_place(to, 3 * floor, centre, centre);
+    let place = at_place(to, 3 * floor, centre, centre);
     let below = at_place(to, 0, mat, centre);
     for axis in 0..2 {
-        let row = summed(&[(1.0, &own[axis]), (-1.0, &below[axis])]);
+        let row = summed(&[(1.0, &place[axis]), (-1.0, &below[axis])]);
         to.spring(masses[axis], &row);
     }
-    let (own, below) = (to.unit(3 * floor + 2), to.unit(2));
-    let row = summed(&[(1.0, &own), (-1.0, &below)]);
+    let (above, below) = (to.unit(3 * floor + 2), to.unit(2));
+    let row = summed(&[(1.0, &above), (-1.0, &below)]);
     to.spring(masses[2], &row);
 }
 
@@ -623,14 +637,14 @@ fn same_motion(tiers: &Tiers, frames: &Full, beta: f64) {
     let mut dashpots = Full::new(first);
     add_bearings(&mut dashpots, mat, 2.4e5);
     let mut mass = mat_masses.to_vec();
-    for (floor, own) in tiers.floors.iter().enumerate() {
-        let masses = [own.mass, own.mass, own.polar_mass];
+    for (floor, tier) in tiers.floors.iter().enumerate() {
+        let masses = [tier.mass, tier.mass, tier.polar_mass];
         mass.extend(masses);
         add_relative(
             &mut dashpots,
             floor + 1,
             masses.map(|mass| 0.4 * mass),
-            own.centre,
+            tier.centre,
             mat,
         );
     }
@@ -727,9 +741,9 @@ fn in_space(axial: bool, hinge: Option<f64>) -> Tiers {
         };
         let mut hinges = [None; 2];
         for &plane in planes {
-            let stiffness = hinge.map(|own| own * section.flexural_rigidity[plane] / length);
+            let stiffness = hinge.map(|hinge| hinge * section.flexural_rigidity[plane] / length);
             // It stays elastic.
-            hinges[plane] = stiffness.map(|own| yielding(own, 1e9));
+            hinges[plane] = stiffness.map(|stiffness| yielding(stiffness, 1e9));
         }
         SpaceMember {
             place,
@@ -761,11 +775,11 @@ fn matrix_in_space(tiers: &Tiers, mat: PlanPoint, hinge: Option<f64>) -> Full {
         let at = [LINES[0][x], LINES[1][y]];
         let [ux, uy] = at_place(full, 3 * level, centres[level], at);
         let turn = full.unit(3 * level + 2);
-        let own = |part: usize| match level.checked_sub(1) {
+        let joint = |part: usize| match level.checked_sub(1) {
             Some(floor) => full.unit(9 + 3 * (6 * floor + 2 * x + y) + part),
             None => full.zero(),
         };
-        [ux, uy, own(0), own(1), own(2), turn]
+        [ux, uy, joint(0), joint(1), joint(2), turn]
     };
     for member in &frame.members {
         let storey = member.place.storey();
@@ -787,7 +801,9 @@ fn matrix_in_space(tiers: &Tiers, mat: PlanPoint, hinge: Option<f64>) -> Full {
         full.spring(section.torsional_rigidity / length, &twist);
         for (plane, &(towards, about, sign)) in planes.iter().enumerate() {
             let rigidity = section.flexural_rigidity[plane];
-            let shear = section.shear_rigidity.map(|own| own[plane]);
+            let shear = section
+                .shear_rigidity
+                .map(|shear_rigidity| shear_rigidity[plane]);
             let mut slopes = [&a, &b].map(|end| summed(&[(sign, &end[3 + about])]));
             if let Some(hinge) = hinge {
                 for slope in &mut slopes {
@@ -836,15 +852,15 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
     let (storeys, height, mass, mat) = (2, 3.2, 1.2e5, 9e4);
     let column = SpaceSection::rectangle([0.5, 0.4], 30e9, 0.2, false).expect("a section");
     let beam = SpaceSection::beam([0.3, 0.6], 30e9, 0.2, false).expect("a section");
-    let of_plane = |own: &SpaceSection| Section {
-        flexural_rigidity: own.flexural_rigidity[0],
+    let of_plane = |section: &SpaceSection| Section {
+        flexural_rigidity: section.flexural_rigidity[0],
         axial_rigidity: None,
         shear_rigidity: None,
         line_mass: 0.0,
     };
-    let stiff = |own: &SpaceSection| 50.0 * own.flexural_rigidity[0] / 3.2;
+    let stiff = |section: &SpaceSection| 50.0 * section.flexural_rigidity[0] / 3.2;
     for yields in [false, true] {
-        let hinge = |own: &SpaceSection| yields.then(|| yielding(stiff(own), 60e3));
+        let hinge = |section: &SpaceSection| yields.then(|| yielding(stiff(section), 60e3));
         let mut members = Vec::new();
         let mut add = |place: SpacePlace, section: SpaceSection| {
             let section = SpaceSection {
@@ -890,8 +906,8 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
             beam_mass: vec![0.0; storeys],
             ..massless(frame(storeys, &[6.0, 5.0]))
         };
-        let rows = |count: usize, own: &SpaceSection| match hinge(own) {
-            Some(own) => vec![vec![own; count]; storeys],
+        let rows = |count: usize, section: &SpaceSection| match hinge(section) {
+            Some(hinge) => vec![vec![hinge; count]; storeys],
             None => Vec::new(),
         };
         let plane_hinges = yields.then(|| {
@@ -917,10 +933,10 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
             let apart = difference(&along(&deep, storeys), &along(&flat, storeys));
             println!("{kind} {yields}: {apart:e}");
             assert!(apart < 1e-8, "{kind} {yields}: {apart:e}");
-            let [own, of_plane] =
+            let [members, of_plane] =
                 [&system, &plane_system].map(|system| &system.buildings[0].members.members);
             let mut compared = 0;
-            for member in own {
+            for member in members {
                 let MemberPlace::InSpace(place) = member.place else {
                     panic!("in space");
                 };
@@ -935,7 +951,7 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
                     },
                     SpacePlace::BeamY { .. } => continue,
                 };
-                let other = of_plane.iter().find(|own| own.place == wanted);
+                let other = of_plane.iter().find(|plane| plane.place == wanted);
                 let other = other.expect("the same member");
                 for end in 0..2 {
                     for kind in 0..3 {
@@ -975,7 +991,7 @@ fn faults(model: &Model) -> String {
     let faults = System::assemble(model).expect_err("it is refused");
     let lines = faults
         .iter()
-        .map(|own| format!("{}: {}\n", own.path, own.problem));
+        .map(|fault| format!("{}: {}\n", fault.path, fault.problem));
     lines.collect()
 }
 
@@ -995,15 +1011,15 @@ fn columns_on_a_mat_have_no_base_of_their_own() {
 fn bearings_that_slide_in_plan_have_no_pushover() {
     let mut model = on_bearings(three_frames(), BETA, Solver::Riccati, 1e-3);
     let system = assembled(&model);
-    let own = &system.buildings[0];
-    let pushed = pushover(own, PushSettings::default()).expect("it is elastic");
+    let building = &system.buildings[0];
+    let pushed = pushover(building, PushSettings::default()).expect("it is elastic");
     let last = pushed.points.last().expect("points");
-    let mut load = vec![0.0; own.equations.len()];
-    for (floor, share) in own.floors.iter().zip(&pushed.floor_loads) {
+    let mut load = vec![0.0; building.equations.len()];
+    for (floor, share) in building.floors.iter().zip(&pushed.floor_loads) {
         load[floor.dof] = share * last.base_shear;
     }
-    let u = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
-    assert!((u[own.floors[1].dof] / last.roof - 1.0).abs() < 1e-9);
+    let u = solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load).expect("it stands");
+    assert!((u[building.floors[1].dof] / last.roof - 1.0).abs() < 1e-9);
     let [_, lead, _] = bearings(1.1e5, 1.0);
     model.buildings[0].base.isolation = Some(lead);
     let refused = pushover(&assembled(&model).buildings[0], PushSettings::default());

@@ -170,7 +170,7 @@ fn undamped(mut building: Building) -> Building {
 /// Beams that do not bend and columns that keep their length make a frame a shear building, of 12 EI/h³ for each column.
 #[test]
 fn a_frame_with_rigid_beams_on_bearings_is_a_shear_building_on_them() {
-    for own in [
+    for bearing in [
         isolation(Isolator::Linear { stiffness: 4e6 }),
         lead_rubber(),
         pendulum(),
@@ -204,7 +204,7 @@ fn a_frame_with_rigid_beams_on_bearings_is_a_shear_building_on_them() {
         buildings[1].structure = Structure::Shear(shear);
         let [framed, sheared] = buildings.map(|building| {
             let mut building = undamped(building);
-            building.base.isolation = Some(own);
+            building.base.isolation = Some(bearing);
             let system = assembled(&alone(building));
             let outcome = run(&system, &shaking(4.0), &steps(1e-3, 1));
             let u = column(&outcome, Column::displacement(0, 0));
@@ -218,8 +218,8 @@ fn a_frame_with_rigid_beams_on_bearings_is_a_shear_building_on_them() {
         });
         for (a, b) in framed.iter().zip(&sheared) {
             let apart = difference(a, b);
-            println!("{}: {apart:e}", own.isolator.name());
-            assert!(apart < 1e-5, "{}: {apart:e}", own.isolator.name());
+            println!("{}: {apart:e}", bearing.isolator.name());
+            assert!(apart < 1e-5, "{}: {apart:e}", bearing.isolator.name());
         }
     }
 }
@@ -227,13 +227,13 @@ fn a_frame_with_rigid_beams_on_bearings_is_a_shear_building_on_them() {
 /// P-Delta in chord form takes N/h from the stiffness of a storey, N being the weight above; bearings stay as they are.
 #[test]
 fn p_delta_above_bearings_softens_storeys_by_their_load() {
-    for own in [
+    for bearing in [
         isolation(Isolator::Linear { stiffness: 4e6 }),
         lead_rubber(),
     ] {
         let (mass, storeys) = (4e4, 4);
         let mut leaning = undamped(tower("leaning", storeys, mass, 0.9));
-        leaning.base.isolation = Some(own);
+        leaning.base.isolation = Some(bearing);
         let mut softer = leaning.clone();
         leaning.gravity.p_delta = true;
         let Structure::Shear(shear) = &mut softer.structure else {
@@ -306,15 +306,15 @@ fn all_laws() -> Vec<Link> {
 }
 
 /// Two towers that yield and pound, one of them on bearings, joined by links of all laws, beside a wall that gives way.
-fn everything(own: Option<Isolation>) -> Model {
+fn everything(isolation: Option<Isolation>) -> Model {
     let buildings = vec![
         yielding_tower("left", 3e4, 0.4),
         yielding_tower("right", 5e4, 0.7),
     ];
     let mut model = row(buildings, 0.004, law(LawKind::HertzDamp, 0.65));
     model.links = all_laws();
-    model.buildings[0].base.isolation = own;
-    if own.is_some() {
+    model.buildings[0].base.isolation = isolation;
+    if isolation.is_some() {
         model.walls.push(Wall {
             name: "moat".to_owned(),
             stiffness: Some(1e8),
@@ -334,8 +334,8 @@ fn everything(own: Option<Isolation>) -> Model {
 fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
     let mut motion = shaking(2.5);
     motion.scale = 1.2;
-    for own in [None, Some(lead_rubber()), Some(pendulum())] {
-        let model = everything(own);
+    for bearing in [None, Some(lead_rubber()), Some(pendulum())] {
+        let model = everything(bearing);
         let system = assembled(&model);
         let with = |step: f64, solver: Solver| {
             let plan = Plan {
@@ -348,7 +348,7 @@ fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
         let direct = with(1e-3, Solver::Stiffness);
         assert!(riccati.energy.hysteretic > 1e3);
         assert_eq!(riccati.impacts.len(), direct.impacts.len());
-        let is_force = |own: Column| own.owner.name() == "link" && own.kind == Kind::Force;
+        let is_force = |column: Column| column.owner.name() == "link" && column.kind == Kind::Force;
         for (link, force) in riccati.peaks.sizes(is_force).iter().enumerate() {
             assert!(*force > 1e3, "link {link} does nothing");
         }
@@ -386,8 +386,8 @@ fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
 /// HHT dissipates in high modes, by less with smaller steps: it approaches the usual rule.
 #[test]
 fn hht_runs_with_links_and_bearings_approach_those_of_the_usual_rule() {
-    for own in [None, Some(lead_rubber())] {
-        let mut model = everything(own);
+    for bearing in [None, Some(lead_rubber())] {
+        let mut model = everything(bearing);
         model.gaps.clear();
         model.walls.clear();
         let system = assembled(&model);

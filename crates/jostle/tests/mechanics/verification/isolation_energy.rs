@@ -34,9 +34,9 @@ fn summary(
 /// A tower of three storeys on bearings without a dashpot.
 fn isolated(isolator: Isolator, stops: [Option<Stop>; 2]) -> Model {
     let mut building = tower("isolated", 3, 3e4, 0.5);
-    let mut own = Isolation::new(isolator, 6e4);
-    own.stops = stops;
-    building.base.isolation = Some(own);
+    let mut isolation = Isolation::new(isolator, 6e4);
+    isolation.stops = stops;
+    building.base.isolation = Some(isolation);
     row(vec![building], 0.0, law(jostle::LawKind::Hertz, 1.0))
 }
 
@@ -68,7 +68,9 @@ fn in_storeys(model: &Model, outcome: &Outcome) -> f64 {
         panic!("it is one");
     };
     let floors = (0..=3).map(|floor| column(outcome, Column::displacement(0, floor)));
-    let ends: Vec<f64> = floors.map(|own| *own.last().expect("recorded")).collect();
+    let ends: Vec<f64> = floors
+        .map(|floor| *floor.last().expect("recorded"))
+        .collect();
     let storeys = ends.windows(2).zip(&shear.stiffness);
     storeys.map(|(u, k)| 0.5 * k * (u[1] - u[0]).powi(2)).sum()
 }
@@ -102,7 +104,7 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
         // Cut off while it moves.
         let motion = shaking(3.0);
         let outcome = crate::verification::support::run(&system, &motion, &steps(1e-3, 1));
-        let own = summary(&model, &system, &motion, &outcome)
+        let isolation = summary(&model, &system, &motion, &outcome)
             .isolation
             .expect("isolated");
         let end = |of| *column(&outcome, of).last().expect("recorded");
@@ -128,7 +130,7 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
                 surfaces,
                 slip_displacement,
             } => {
-                let [first, second] = surfaces.map(|own| own.friction);
+                let [first, second] = surfaces.map(|surface| surface.friction);
                 0.5 * force * force * slip_displacement / (first.min(second) * weight)
             }
             Isolator::Linear { .. }
@@ -137,11 +139,11 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
         };
         let area = loops(&outcome);
         let due = area - stored;
-        let off = (own.hysteretic_j - due).abs() / area;
+        let off = (isolation.hysteretic_j - due).abs() / area;
         assert!(
             off < 1e-8,
             "{name}: {} J instead of {due} J",
-            own.hysteretic_j
+            isolation.hysteretic_j
         );
         assert!(
             stored > 1e-3 * area,
@@ -165,11 +167,13 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
             "{name}: {} J instead of {elastic} J",
             outcome.energy.strain
         );
-        assert_eq!(own.residual_m, moved);
-        let stroke = own.displacement_max_m.max(-own.displacement_min_m);
+        assert_eq!(isolation.residual_m, moved);
+        let stroke = isolation
+            .displacement_max_m
+            .max(-isolation.displacement_min_m);
         if stops[0].is_some() {
             let peak = stop.stiffness * (stroke - stop.at);
-            let found = own.stop_force_peak_n.expect("it has stops");
+            let found = isolation.stop_force_peak_n.expect("it has stops");
             assert!(
                 peak > 1e4 && (found / peak - 1.0).abs() < 1e-3,
                 "{found} and {peak}"
@@ -192,9 +196,9 @@ fn bearings_in_plan_dissipate_and_store_what_the_rate_equation_says() {
             Some(plan::shaking("across", 5.3, 0.4)),
         );
         let model = eccentric_block(isolator, 5e-4);
-        let own = ByRates::new(&model);
-        let (state, _) = own.run(&motion, motion.duration, 1e-5);
-        let (dissipated, stored) = (state[20], own.stored(&state));
+        let rates = ByRates::new(&model);
+        let (state, _) = rates.run(&motion, motion.duration, 1e-5);
+        let (dissipated, stored) = (state[20], rates.stored(&state));
         let (system, outcome) = plan::run(&model, &motion);
         let told = summary(&model, &system, &motion, &outcome)
             .isolation
@@ -231,7 +235,7 @@ fn mat(outcome: &Outcome) -> Vec<[f64; 3]> {
         Column::displacement(building, floor).across(),
         Column::displacement(building, floor).turning(),
     ]
-    .map(|own| column(outcome, own));
+    .map(|quantity| column(outcome, quantity));
     let rows = u.iter().zip(&v).zip(&turn);
     rows.map(|((u, v), turn)| [*u, *v, *turn]).collect()
 }
@@ -245,7 +249,7 @@ fn farthest(motion: &[f64; 3]) -> (usize, f64) {
     let all = strokes.into_iter().enumerate();
     all.fold(
         (0, 0.0),
-        |best, own| if own.1 > best.1 { own } else { best },
+        |best, stroke| if stroke.1 > best.1 { stroke } else { best },
     )
 }
 
@@ -255,8 +259,8 @@ fn strokes_are_those_of_the_worst_bearing() {
     let motion = two_components(0.4);
     let model = eccentric_block(plan::lead_rubber(), 1e-3);
     let (system, outcome) = plan::run(&model, &motion);
-    let own = summary(&model, &system, &motion, &outcome);
-    let told = own.isolation.clone().expect("isolated");
+    let report = summary(&model, &system, &motion, &outcome);
+    let told = report.isolation.clone().expect("isolated");
     let in_plan: IsolationInPlan = told.in_plan.expect("in plan");
     let rows = mat(&outcome);
     let end = rows.last().expect("recorded");
@@ -282,8 +286,8 @@ fn strokes_are_those_of_the_worst_bearing() {
     );
     let peaks: Vec<(usize, f64)> = rows.iter().map(farthest).collect();
     let all = peaks.iter().enumerate();
-    let (at, (bearing, stroke)) = all.fold((0, (0, 0.0)), |best, (at, own)| {
-        if own.1 > best.1.1 { (at, *own) } else { best }
+    let (at, (bearing, stroke)) = all.fold((0, (0, 0.0)), |best, (at, peak)| {
+        if peak.1 > best.1.1 { (at, *peak) } else { best }
     });
     assert_eq!(in_plan.stroke_bearing, bearing + 1);
     assert!((in_plan.stroke_peak_m / stroke - 1.0).abs() < 1e-4);
@@ -302,7 +306,9 @@ fn strokes_are_those_of_the_worst_bearing() {
         assert!((found / due - 1.0).abs() < 1e-3, "{found} instead of {due}");
     }
     let force = column(&outcome, Column::support_force(0).across());
-    let due = force.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+    let due = force
+        .iter()
+        .fold(0.0_f64, |most, force| most.max(force.abs()));
     assert!((in_plan.force_across_peak_n / due - 1.0).abs() < 1e-9);
     assert!(
         (told.force_peak_n / due - 1.0).abs() > 0.02,
@@ -313,8 +319,8 @@ fn strokes_are_those_of_the_worst_bearing() {
     assert!(along < 0.97 * stroke);
     for (limit, exceeded) in [(0.5 * (along + stroke), true), (1.01 * stroke, false)] {
         let mut limited = model.clone();
-        if let Some(own) = &mut limited.buildings[0].base.isolation {
-            own.limit = Some(limit);
+        if let Some(isolation) = &mut limited.buildings[0].base.isolation {
+            isolation.limit = Some(limit);
         }
         let (system, outcome) = plan::run(&limited, &motion);
         let told = summary(&limited, &system, &motion, &outcome)
@@ -325,7 +331,7 @@ fn strokes_are_those_of_the_worst_bearing() {
         assert!((ratio - in_plan.stroke_peak_m / limit).abs() < 1e-12);
     }
     // The mat is floor 0.
-    let floor = own
+    let floor = report
         .floors
         .mat
         .as_ref()
@@ -346,27 +352,27 @@ fn limits_in_one_plane_hold_on_both_sides() {
     let model = isolated(plan::lead_rubber(), [None; 2]);
     let with = |scale: f64, limit: f64| {
         let mut model = model.clone();
-        if let Some(own) = &mut model.buildings[0].base.isolation {
-            own.limit = Some(limit);
+        if let Some(isolation) = &mut model.buildings[0].base.isolation {
+            isolation.limit = Some(limit);
         }
         let mut motion = shaking(4.0);
         motion.scale = scale;
         let system = assembled(&model);
         let plan: Plan = steps(1e-3, 1);
         let outcome = crate::verification::support::run(&system, &motion, &plan);
-        let own = summary(&model, &system, &motion, &outcome)
+        let isolation = summary(&model, &system, &motion, &outcome)
             .isolation
             .expect("isolated");
         let moved = column(&outcome, Column::displacement(0, 0));
         assert_eq!(
-            own.residual_stroke_m(),
+            isolation.residual_stroke_m(),
             moved.last().expect("recorded").abs()
         );
         (
-            own.displacement_max_m,
-            -own.displacement_min_m,
-            own.limit_exceeded,
-            own.displacement_peak_m(),
+            isolation.displacement_max_m,
+            -isolation.displacement_min_m,
+            isolation.limit_exceeded,
+            isolation.displacement_peak_m(),
         )
     };
     let (right, left, _, stroke) = with(1.0, 1.0);

@@ -39,7 +39,7 @@ fn turned(point: PlanPoint, angle: f64) -> PlanPoint {
 
 /// The bearing that goes furthest, and how far \[m\].
 fn stroke(outcome: &Outcome) -> (usize, f64) {
-    let strokes = outcome.peaks.sizes(|own| own.kind == Kind::Stroke);
+    let strokes = outcome.peaks.sizes(|column| column.kind == Kind::Stroke);
     let all = strokes.into_iter().enumerate();
     all.max_by(|a, b| a.1.total_cmp(&b.1)).expect("bearings")
 }
@@ -199,10 +199,10 @@ fn along(outcome: &Outcome, floors: usize, angle: f64) -> Vec<f64> {
 fn on_a_line_bearings_are_those_of_one_plane() {
     let (storeys, properties) = (3, [1.5e5, 1.2e8]);
     let damping = Damping::ratio(0.05, [1, 2]);
-    for own in bearings() {
+    for bearing in bearings() {
         let shear = equal_storeys(storeys, properties);
         let plane = model(
-            building(Structure::Shear(shear), damping.clone(), own),
+            building(Structure::Shear(shear), damping.clone(), bearing),
             2e-3,
         );
         let motion = shaking("line", 4.0, 1.0);
@@ -210,7 +210,7 @@ fn on_a_line_bearings_are_those_of_one_plane() {
         let expected: Vec<f64> = (0..=storeys)
             .flat_map(|floor| column(&flat, Column::displacement(0, floor)))
             .collect();
-        let kind = own.isolator.name();
+        let kind = bearing.isolator.name();
         for angle in [0.0, 37.0 * TAU / 360.0, 2.0] {
             let plan: Vec<PlanPoint> = rectangle(0.0, 0.0, 14.0, 9.0)
                 .into_iter()
@@ -218,7 +218,7 @@ fn on_a_line_bearings_are_those_of_one_plane() {
                 .collect();
             let tiers = tiers(storeys, properties, &plan, [0.0; 2]);
             let deep = model(
-                building(Structure::Tiers(tiers), damping.clone(), own),
+                building(Structure::Tiers(tiers), damping.clone(), bearing),
                 2e-3,
             );
             let (system, deep) = run(&deep, &from(motion.clone(), angle, None));
@@ -247,7 +247,7 @@ fn on_a_line_bearings_are_those_of_one_plane() {
             let of_mat = |owner, kind| peaks.owned_by(owner).across().of(kind).size();
             let most = a.displacement_max().value.max(-a.displacement_min().value);
             assert!((stroke(&deep).1 / most - 1.0).abs() < 1e-9, "{kind}");
-            if own.stops[0].is_some() {
+            if bearing.stops[0].is_some() {
                 let stop = largest(&spring_forces(&flat)[1..]);
                 let ring = Column::along(Owner::Support(0), Kind::RingForce);
                 let ring = peaks.of(ring).size();
@@ -291,16 +291,16 @@ pub(crate) const PLACES: [PlanPoint; 4] = [[1.0, 1.0], [11.0, 0.5], [10.0, 8.0],
 /// One floor with a mass centre beside the middle, on a mat with four bearings.
 pub(crate) fn eccentric_block(isolator: Isolator, step: f64) -> Model {
     let plan = rectangle(0.0, 0.0, 12.0, 9.0);
-    let mut own = tiers(1, [2.5e5, 1.5e8], &plan, [1.2, -0.7]);
-    own.floors[0].centre = [7.0, 4.0];
-    own.bearings = PLACES.to_vec();
+    let mut tiers = tiers(1, [2.5e5, 1.5e8], &plan, [1.2, -0.7]);
+    tiers.floors[0].centre = [7.0, 4.0];
+    tiers.bearings = PLACES.to_vec();
     let mut isolation = Isolation::new(isolator, 1e5);
     isolation.damping = IsolatorDamping::Coefficient(1e5);
     let damping = Damping::Rayleigh {
         alpha: 0.3,
         beta: 1e-3,
     };
-    let mut model = model(building(Structure::Tiers(own), damping, isolation), step);
+    let mut model = model(building(Structure::Tiers(tiers), damping, isolation), step);
     model.analysis.solver = Some(Solver::Stiffness);
     model
 }
@@ -372,9 +372,9 @@ impl ByRates {
         };
         for at in PLACES {
             for axis in 0..2 {
-                let own = row(at, middle, axis, 0, 1.0);
-                add(&mut stiffness, &own, 0.25 * second);
-                add(&mut damping, &own, 0.25 * dashpot);
+                let row = row(at, middle, axis, 0, 1.0);
+                add(&mut stiffness, &row, 0.25 * second);
+                add(&mut damping, &row, 0.25 * dashpot);
             }
         }
         let storey = &tiers.storeys[0];
@@ -390,11 +390,11 @@ impl ByRates {
         };
         let turning = [0.0, 0.0, -1.0, 0.0, 0.0, 1.0];
         for axis in 0..2 {
-            let own: Motion6 = relative(storey.centre, axis);
-            add(&mut stiffness, &own, storey.stiffness[axis]);
-            add(&mut damping, &own, beta * storey.stiffness[axis]);
-            let own: Motion6 = relative(floor.centre, axis);
-            add(&mut damping, &own, alpha * floor.mass);
+            let motion6: Motion6 = relative(storey.centre, axis);
+            add(&mut stiffness, &motion6, storey.stiffness[axis]);
+            add(&mut damping, &motion6, beta * storey.stiffness[axis]);
+            let relative: Motion6 = relative(floor.centre, axis);
+            add(&mut damping, &relative, alpha * floor.mass);
         }
         add(&mut stiffness, &turning, storey.stiffness[2]);
         add(
@@ -530,9 +530,9 @@ fn an_eccentric_block_moves_by_the_rate_equation() {
             Some(shaking("across", 5.3, 0.4)),
         );
         let duration = motion.duration;
-        let own = ByRates::new(&eccentric_block(isolator, 1e-3));
+        let rates = ByRates::new(&eccentric_block(isolator, 1e-3));
         let [(rough, _), (exact, stroke)] =
-            [1e-5, 2.5e-6].map(|step| own.run(&motion, duration, step));
+            [1e-5, 2.5e-6].map(|step| rates.run(&motion, duration, step));
         let scale = largest(&exact[..6]);
         // Of first order, where a force reaches the circle within a step.
         let own_error = difference(&rough[..6], &exact[..6]) / 3.0;
@@ -570,7 +570,7 @@ fn the_worst_bearing_is_that_of_the_histories() {
         Column::displacement(building, floor).across(),
         Column::displacement(building, floor).turning(),
     ]
-    .map(|own| column(&outcome, own));
+    .map(|quantity| column(&outcome, quantity));
     let rows = u.iter().zip(&v).zip(&turn);
     let greatest = |at: &PlanPoint| {
         let moved = rows
@@ -604,10 +604,10 @@ fn before_walls(isolation: Isolation, angle: f64) -> Model {
         .into_iter()
         .map(|[x, y]| corner(x, y))
         .collect();
-    let mut own = tiers(2, [2e5, 1.5e8], &plan, turned([0.8, -0.5], angle));
-    own.bearings = PLACES.iter().map(|[x, y]| corner(*x, *y)).collect();
+    let mut tiers = tiers(2, [2e5, 1.5e8], &plan, turned([0.8, -0.5], angle));
+    tiers.bearings = PLACES.iter().map(|[x, y]| corner(*x, *y)).collect();
     let damping = Damping::ratio(0.03, [1, 2]);
-    let mut model = model(building(Structure::Tiers(own), damping, isolation), 1e-3);
+    let mut model = model(building(Structure::Tiers(tiers), damping, isolation), 1e-3);
     model.analysis.contact_step = Some(2e-4);
     let wall = |name: &str, from: PlanPoint, to: PlanPoint| Wall {
         name: name.to_owned(),
@@ -638,16 +638,20 @@ pub(crate) fn two_components(angle: f64) -> GroundMotion {
 /// The mat hits moat walls on two sides.
 #[test]
 fn a_mat_hits_moat_walls_on_two_sides() {
-    for own in bearings() {
-        let (system, outcome) = run(&before_walls(own, 0.0), &two_components(0.3));
-        let kind = own.isolator.name();
+    for bearing in bearings() {
+        let (system, outcome) = run(&before_walls(bearing, 0.0), &two_components(0.3));
+        let kind = bearing.isolator.name();
         println!("{kind}: {} impacts", outcome.face_impacts.len());
         for face in 0..2 {
-            let own = outcome.face_impacts.iter().filter(|own| own.face == face);
-            let own: Vec<_> = own.collect();
-            assert!(!own.is_empty(), "{kind}: face {face}");
+            let face_impacts = outcome
+                .face_impacts
+                .iter()
+                .filter(|face_impact| face_impact.face == face);
+            let impacts: Vec<_> = face_impacts.collect();
+            assert!(!impacts.is_empty(), "{kind}: face {face}");
             let contact = system.contacts.iter();
-            let mut contact = contact.filter(|own| own.plan.is_some_and(|p| p.face == face));
+            let mut contact =
+                contact.filter(|contact| contact.plan.is_some_and(|p| p.face == face));
             let first = contact.next().expect("points");
             assert_eq!(system.floors_of(&first.ports), [Some(0), None]);
         }
@@ -658,9 +662,10 @@ fn a_mat_hits_moat_walls_on_two_sides() {
 #[test]
 fn the_site_may_be_turned() {
     let angle = 37.0 * TAU / 360.0;
-    for own in bearings() {
-        let kind = own.isolator.name();
-        let run_at = |angle: f64| run(&before_walls(own, angle), &two_components(0.3 + angle)).1;
+    for bearing in bearings() {
+        let kind = bearing.isolator.name();
+        let run_at =
+            |angle: f64| run(&before_walls(bearing, angle), &two_components(0.3 + angle)).1;
         let [straight, skew] = [0.0, angle].map(run_at);
         let of = |outcome: &Outcome, angle: f64| {
             let mut all = along(outcome, 2, angle);
@@ -687,8 +692,8 @@ fn a_mat_before_a_wall_hits_it_as_in_one_plane() {
     let isolation = Isolation::new(lead_rubber(), 9e4);
     let shear = equal_storeys(storeys, properties);
     let plan = rectangle(0.0, 0.0, 10.0, 8.0);
-    let own = tiers(storeys, properties, &plan, [0.0; 2]);
-    let mut models = [Structure::Shear(shear), Structure::Tiers(own)]
+    let tiers = tiers(storeys, properties, &plan, [0.0; 2]);
+    let mut models = [Structure::Shear(shear), Structure::Tiers(tiers)]
         .map(|structure| model(building(structure, damping.clone(), isolation), 1e-3));
     for model in &mut models {
         model.analysis.contact_step = Some(5e-5);
@@ -724,8 +729,8 @@ fn a_mat_before_a_wall_hits_it_as_in_one_plane() {
 fn periods_of_an_isolated_block_are_those_of_its_bearings() {
     let isolation = Isolation::new(Isolator::Linear { stiffness: 5e6 }, 1e5);
     let plan = rectangle(0.0, 0.0, 12.0, 9.0);
-    let own = tiers(1, [4e5, 1e13], &plan, [0.0; 2]);
-    let model = model(building(Structure::Tiers(own), UNDAMPED, isolation), 1e-2);
+    let tiers = tiers(1, [4e5, 1e13], &plan, [0.0; 2]);
+    let model = model(building(Structure::Tiers(tiers), UNDAMPED, isolation), 1e-2);
     let system = runs::assembled(&model);
     let expected = TAU * (5e5_f64 / 5e6).sqrt();
     for mode in &system.buildings[0].modes[..3] {
@@ -743,7 +748,7 @@ fn faults(change: impl Fn(&mut Building)) -> String {
     let faults = System::assemble(&model).expect_err("it is refused");
     let lines = faults
         .iter()
-        .map(|own| format!("{}: {}\n", own.path, own.problem));
+        .map(|fault| format!("{}: {}\n", fault.path, fault.problem));
     lines.collect()
 }
 

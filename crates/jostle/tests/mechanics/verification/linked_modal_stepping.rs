@@ -74,9 +74,9 @@ fn full_matrices() -> (Vec<f64>, Matrix, Matrix) {
     let mass = [4e4, 4e4, 3e4, BASE[2], 5e4, 5e4, 6e4, 5e4, 5e4, 4e4].to_vec();
     let zero = vec![vec![0.0; n]; n];
     let spring = |matrix: &mut Matrix, ends: [Option<usize>; 2], k: f64| {
-        for (a, own) in ends.iter().enumerate() {
+        for (a, end) in ends.iter().enumerate() {
             for (b, other) in ends.iter().enumerate() {
-                if let (Some(i), Some(j)) = (own, other) {
+                if let (Some(i), Some(j)) = (end, other) {
                     matrix[*i][*j] += if a == b { k } else { -k };
                 }
             }
@@ -252,7 +252,7 @@ fn compare(model: &Model, motion: &GroundMotion, tolerance: f64, expected_within
     assert_eq!(found.impacts.len(), fine.impacts.len());
     let mut pairs = Vec::new();
     let most = |of: &dyn Fn(usize) -> f64, count: usize| (0..count).map(of).fold(0.0, f64::max);
-    for (own, other) in found.peaks.buildings().zip(fine.peaks.buildings()) {
+    for (building, other) in found.peaks.buildings().zip(fine.peaks.buildings()) {
         for kind in 0..5 {
             let of = |floors: &[PeaksOf], at: usize| {
                 let floor = floors[at];
@@ -265,17 +265,21 @@ fn compare(model: &Model, motion: &GroundMotion, tolerance: f64, expected_within
                 ][kind]
             };
             let scale = most(&|at| of(&other, at), other.len());
-            let off = most(&|at| (of(&own, at) - of(&other, at)).abs(), other.len());
+            let off = most(
+                &|at| (of(&building, at) - of(&other, at)).abs(),
+                other.len(),
+            );
             pairs.push((["u", "drift", "a", "shear", "moment"][kind], off / scale));
         }
     }
     for kind in [Kind::Force, Kind::Stroke] {
         let of = |run: &Outcome| {
-            let is_link = |own: Column| matches!(own.owner, Owner::Link(_)) && own.kind == kind;
+            let is_link =
+                |column: Column| matches!(column.owner, Owner::Link(_)) && column.kind == kind;
             run.peaks.sizes(is_link)
         };
-        for (own, other) in of(&found).into_iter().zip(of(&fine)) {
-            pairs.push(("link", (own / other - 1.0).abs()));
+        for (one, other) in of(&found).into_iter().zip(of(&fine)) {
+            pairs.push(("link", (one / other - 1.0).abs()));
         }
     }
     // Impacts that end together may come in either order.
@@ -285,9 +289,9 @@ fn compare(model: &Model, motion: &GroundMotion, tolerance: f64, expected_within
         touches.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         touches
     };
-    for (own, other) in touches(&found).iter().zip(touches(&fine)) {
-        assert_eq!(own.0, other.0);
-        pairs.push(("touch", (own.1 - other.1).abs()));
+    for (touch, other) in touches(&found).iter().zip(touches(&fine)) {
+        assert_eq!(touch.0, other.0);
+        pairs.push(("touch", (touch.1 - other.1).abs()));
     }
     for (what, off) in &pairs {
         assert!(*off < expected_within, "{what}: {off:e}, {pairs:?}");
@@ -315,10 +319,13 @@ fn linked_buildings_that_meet_agree_with_riccati() {
 fn links_to_walls_and_across_a_row_agree_with_riccati() {
     let towers = [(3, 3e4, 0.4), (5, 4e4, 0.8), (2, 5e4, 0.3), (4, 4e4, 0.6)];
     let towers = towers.map(|(storeys, mass, period)| tower("x", storeys, mass, period));
-    let named = towers.into_iter().enumerate().map(|(index, own)| Building {
-        name: format!("tower {index}"),
-        ..own
-    });
+    let named = towers
+        .into_iter()
+        .enumerate()
+        .map(|(index, tower)| Building {
+            name: format!("tower {index}"),
+            ..tower
+        });
     let mut model = row(named.collect(), 0.02, law(LawKind::HertzDamp, 0.7));
     model.links = vec![
         link([Some(0), Some(1)], &[(3, 3)], [0.0, 4e5]),

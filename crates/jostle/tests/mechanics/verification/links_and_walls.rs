@@ -142,9 +142,12 @@ fn damped(ratio: f64, omega: f64, start: [f64; 2], t: f64) -> f64 {
 
 #[test]
 fn two_linked_masses_vibrate_in_their_two_modes_and_steps_are_of_second_order() {
-    let (mass, own, stiffness, damping) = (2e4_f64, 1.5e6_f64, 2.2e6, 6e4);
+    let (mass, spring, stiffness, damping) = (2e4_f64, 1.5e6_f64, 2.2e6, 6e4);
     // Together the link does not act; against each other it acts twice.
-    let (together, against) = ((own / mass).sqrt(), ((own + 2.0 * stiffness) / mass).sqrt());
+    let (together, against) = (
+        (spring / mass).sqrt(),
+        ((spring + 2.0 * stiffness) / mass).sqrt(),
+    );
     let ratio = 2.0 * damping / (2.0 * mass * against);
     let (start, speed) = ([0.02, -0.01], [0.3, 0.1]);
     let half = |a: [f64; 2], sign: f64| 0.5 * (a[0] + sign * a[1]);
@@ -153,7 +156,7 @@ fn two_linked_masses_vibrate_in_their_two_modes_and_steps_are_of_second_order() 
     let rest = damped(ratio, against, [half(start, -1.0), half(speed, -1.0)], end);
     let exact = [sum + rest, sum - rest];
     let error = |step: f64, solver: Solver| {
-        let masses = ["a", "b"].map(|name| slider(name, mass, Some(own)));
+        let masses = ["a", "b"].map(|name| slider(name, mass, Some(spring)));
         let system = linked(
             System::of_buildings(masses.into()),
             [Some(0), Some(1)],
@@ -163,8 +166,8 @@ fn two_linked_masses_vibrate_in_their_two_modes_and_steps_are_of_second_order() 
         let mut state = moving(&system, &start, &speed);
         let force = stiffness * (start[0] - start[1]) + damping * (speed[0] - speed[1]);
         state.acceleration = vec![
-            (-own * start[0] - force) / mass,
-            (-own * start[1] + force) / mass,
+            (-spring * start[0] - force) / mass,
+            (-spring * start[1] + force) / mass,
         ];
         let plan = Plan {
             solver,
@@ -192,13 +195,13 @@ fn two_linked_masses_vibrate_in_their_two_modes_and_steps_are_of_second_order() 
 
 #[test]
 fn a_link_to_the_wall_is_a_spring_and_a_dashpot_to_the_ground() {
-    let (mass, own, stiffness, damping) = (2e4_f64, 1e6_f64, 8e5, 4e4);
+    let (mass, spring, stiffness, damping) = (2e4_f64, 1e6_f64, 8e5, 4e4);
     for side in 0..2 {
-        let alone = System::of_buildings(vec![slider("a", mass, Some(own))]);
+        let alone = System::of_buildings(vec![slider("a", mass, Some(spring))]);
         let mut between = [None; 2];
         between[side] = Some(0);
         let system = linked(alone, between, stiffness, damping);
-        let omega = ((own + stiffness) / mass).sqrt();
+        let omega = ((spring + stiffness) / mass).sqrt();
         let mut state = moving(&system, &[0.03], &[0.0]);
         state.acceleration = vec![-omega * omega * 0.03];
         let outcome = run_from(&system, &still(0.5), &steps(1e-4, 1), state);
@@ -206,8 +209,8 @@ fn a_link_to_the_wall_is_a_spring_and_a_dashpot_to_the_ground() {
         assert!((outcome.state.displacement[0] - exact).abs() < 1e-6 * 0.03);
         // What the dashpot took is what the mass lost.
         let [u, v] = [outcome.state.displacement[0], outcome.state.velocity[0]];
-        let left = 0.5 * (mass * v * v + (own + stiffness) * u * u);
-        let lost = 0.5 * (own + stiffness) * 0.03_f64.powi(2) - left;
+        let left = 0.5 * (mass * v * v + (spring + stiffness) * u * u);
+        let lost = 0.5 * (spring + stiffness) * 0.03_f64.powi(2) - left;
         assert!((outcome.energy.links / lost - 1.0).abs() < 1e-9);
         let force = column(&outcome, Column::link_force(0));
         let sign = if side == 0 { 1.0 } else { -1.0 };
@@ -348,9 +351,9 @@ fn links_and_impacts_together_balance() {
 /// that begins in equilibrium, so that steps stay of second order.
 #[test]
 fn a_blow_jerks_the_dashpots_beside_it() {
-    let (masses, own) = ([2e4, 3e4], 1e6);
+    let (masses, spring) = ([2e4, 3e4], 1e6);
     let run_with = |step: f64| -> Outcome {
-        let bodies = masses.map(|mass| slider("m", mass, Some(own)));
+        let bodies = masses.map(|mass| slider("m", mass, Some(spring)));
         let mut momentum = law(LawKind::Restitution, 0.5);
         momentum.stiffness = 1e9;
         let system = sliders(bodies.into(), 0.004, &momentum);
@@ -420,13 +423,13 @@ fn a_stopper_and_a_cable_are_contacts_without_tension() {
     for step in [2e-4, 1e-4] {
         let system = with_law(mass, k, c, LinkLaw::Stopper { gap });
         let start = moving(&system, &[0.0], &[speed]);
-        let own = run_from(&system, &still(0.1), &steps(step, 1), start);
-        let apart = (own.state.velocity[0] / fine.state.velocity[0] - 1.0).abs();
-        let force = (own.peaks.of(Column::link_force(0)).furthest().value
+        let run = run_from(&system, &still(0.1), &steps(step, 1), start);
+        let apart = (run.state.velocity[0] / fine.state.velocity[0] - 1.0).abs();
+        let force = (run.peaks.of(Column::link_force(0)).furthest().value
             / fine.impacts[0].peak_force
             - 1.0)
             .abs();
-        assert!(own.energy.worst_imbalance < 1e-9);
+        assert!(run.energy.worst_imbalance < 1e-9);
         assert!(force < 1e-3, "{force:e}");
         errors.push(apart);
     }
@@ -437,10 +440,10 @@ fn a_stopper_and_a_cable_are_contacts_without_tension() {
     // Half a period of mass and spring, after which it flies back as fast.
     let system = with_law(mass, k, 0.0, LinkLaw::Cable { slack: gap });
     let start = moving(&system, &[0.0], &[-speed]);
-    let own = run_from(&system, &still(0.1), &steps(1e-4, 1), start);
-    assert!((own.state.velocity[0] / speed - 1.0).abs() < 1e-5);
+    let run = run_from(&system, &still(0.1), &steps(1e-4, 1), start);
+    assert!((run.state.velocity[0] / speed - 1.0).abs() < 1e-5);
     let greatest = -speed * (k * mass).sqrt();
-    assert!((own.peaks.of(Column::link_force(0)).furthest().value / greatest - 1.0).abs() < 1e-4);
+    assert!((run.peaks.of(Column::link_force(0)).furthest().value / greatest - 1.0).abs() < 1e-4);
 }
 
 /// Friction takes the work F_s times the way that is slipped.

@@ -91,31 +91,34 @@ fn numbers(summary: &Summary) -> [Vec<f64>; 3] {
     let mut all = [const { Vec::new() }; 3];
     for building in &summary.buildings {
         all[1].push(building.response.base_shear_peak_n);
-        if let Some(own) = &building.in_plan {
-            all[1].push(own.base_shear_across_peak_n);
-            all[2].push(own.base_torque_peak_n_m);
+        if let Some(plan) = &building.in_plan {
+            all[1].push(plan.base_shear_across_peak_n);
+            all[2].push(plan.base_torque_peak_n_m);
         }
         for floor in &building.floors.above {
-            let own = &floor.response;
-            all[0].extend([own.displacement_max_m, own.displacement_min_m]);
-            all[1].push(own.storey_shear_peak_n);
-            if let Some(own) = &floor.in_plan {
-                all[0].extend([own.displacement_across_max_m, own.displacement_across_min_m]);
-                all[1].push(own.storey_shear_across_peak_n);
-                all[2].push(own.storey_torque_peak_n_m);
+            let response = &floor.response;
+            all[0].extend([response.displacement_max_m, response.displacement_min_m]);
+            all[1].push(response.storey_shear_peak_n);
+            if let Some(plan) = &floor.in_plan {
+                all[0].extend([
+                    plan.displacement_across_max_m,
+                    plan.displacement_across_min_m,
+                ]);
+                all[1].push(plan.storey_shear_across_peak_n);
+                all[2].push(plan.storey_torque_peak_n_m);
             }
         }
     }
     all
 }
 
-fn agree(own: &[Vec<f64>; 3], other: &[Vec<f64>; 3], tolerance: f64, what: &str) {
-    for (own, other) in own.iter().zip(other) {
+fn agree(one: &[Vec<f64>; 3], other: &[Vec<f64>; 3], tolerance: f64, what: &str) {
+    for (one, other) in one.iter().zip(other) {
         let most = other
             .iter()
             .fold(0.0_f64, |most, value| most.max(value.abs()));
-        assert_eq!(own.len(), other.len());
-        for (a, b) in own.iter().zip(other) {
+        assert_eq!(one.len(), other.len());
+        for (a, b) in one.iter().zip(other) {
             close(*a, *b, most, tolerance, what);
         }
     }
@@ -177,9 +180,9 @@ fn a_link_between_floors_is_a_column_in_one_direction() {
             };
             let column = model(vec![with_column], Vec::new(), solver);
             let (system, _, expected) = run_and_summary(&column, &turned());
-            let (linked, _, own) =
+            let (linked, _, got) =
                 run_and_summary(&model(vec![bare], vec![link], solver), &turned());
-            agree(&numbers(&own), &numbers(&expected), 1e-3, "column");
+            agree(&numbers(&got), &numbers(&expected), 1e-3, "column");
             let modes = system.buildings[0]
                 .modes
                 .iter()
@@ -199,8 +202,8 @@ fn links_through_centres_act_as_in_one_plane() {
         stiffness: [stiffness, stiffness, 3e9],
         centre: [x + 5.0, 4.0],
     };
-    for own in laws() {
-        let solvers = match own.law {
+    for law in laws() {
+        let solvers = match law.law {
             LinkLaw::Linear => &SOLVERS[..],
             _ => &SOLVERS[1..],
         };
@@ -208,12 +211,12 @@ fn links_through_centres_act_as_in_one_plane() {
             let between = Link {
                 between: [Some(0), Some(1)],
                 floors: FloorPairs::listed(&[(1, 1), (3, 3)]),
-                ..own.clone()
+                ..law.clone()
             };
             let inside = Link {
                 between: [Some(1); 2],
                 floors: FloorPairs::listed(&[(0, 1), (1, 3)]),
-                ..own.clone()
+                ..law.clone()
             };
             let places = [[[10.0, 4.0], [10.02, 4.0]], [[12.0, 4.0], [18.0, 4.0]]];
             for (link, at) in [between, inside].into_iter().zip(places) {
@@ -228,41 +231,44 @@ fn links_through_centres_act_as_in_one_plane() {
                 };
                 let (_, _, expected) =
                     run_and_summary(&model(plane, vec![link], solver), &shaking());
-                let (_, _, own) = run_and_summary(&model(space, vec![placed], solver), &shaking());
+                let (_, _, got) = run_and_summary(&model(space, vec![placed], solver), &shaking());
                 let along = |summary: &Summary| {
-                    let floors = summary.buildings.iter().flat_map(|own| &own.floors.above);
-                    let moved = floors.clone().flat_map(|own| {
-                        let own = &own.response;
-                        [own.displacement_max_m, own.displacement_min_m]
+                    let floors = summary
+                        .buildings
+                        .iter()
+                        .flat_map(|building| &building.floors.above);
+                    let moved = floors.clone().flat_map(|floor| {
+                        let response = &floor.response;
+                        [response.displacement_max_m, response.displacement_min_m]
                     });
-                    let shears = floors.map(|own| own.response.storey_shear_peak_n);
+                    let shears = floors.map(|floor| floor.response.storey_shear_peak_n);
                     let base = summary.buildings.iter();
-                    let base = base.map(|own| own.response.base_shear_peak_n);
+                    let base = base.map(|base| base.response.base_shear_peak_n);
                     [moved.collect(), shears.chain(base).collect::<Vec<f64>>()]
                 };
-                let ([a, b], [c, d]) = (along(&own), along(&expected));
+                let ([a, b], [c, d]) = (along(&got), along(&expected));
                 agree(
                     &[a, b, Vec::new()],
                     &[c, d, Vec::new()],
                     1e-3,
-                    own.links[0].law.as_str(),
+                    got.links[0].law.as_str(),
                 );
-                let (own, expected) = (&own.links[0], &expected.links[0]);
+                let (got, expected) = (&got.links[0], &expected.links[0]);
                 close(
-                    own.force_peak_n,
+                    got.force_peak_n,
                     expected.force_peak_n,
                     expected.force_peak_n,
                     1e-3,
                     "force",
                 );
                 close(
-                    own.stroke_peak_m,
+                    got.stroke_peak_m,
                     expected.stroke_peak_m,
                     expected.stroke_peak_m,
                     1e-3,
                     "stroke",
                 );
-                assert!(own.force_peak_n > 1e4);
+                assert!(got.force_peak_n > 1e4);
             }
         }
     }

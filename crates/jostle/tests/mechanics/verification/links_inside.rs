@@ -109,8 +109,12 @@ enum Described {
 /// Matrices of a tower of four storeys of 120 MN/m and 3.2 m; floors in front, then their other halves.
 fn matrices(mass: f64, halves: bool) -> Given {
     let of_storeys = |storey: usize| {
-        let [below, own] = [storey.checked_sub(1), Some(storey)];
-        let ends = [(own, own, 1.0), (own, below, -1.0), (below, below, 1.0)];
+        let [below, above] = [storey.checked_sub(1), Some(storey)];
+        let ends = [
+            (above, above, 1.0),
+            (above, below, -1.0),
+            (below, below, 1.0),
+        ];
         ends.into_iter()
             .filter_map(|(row, column, sign)| Some((row?, column?, 12e7 * sign)))
     };
@@ -385,17 +389,21 @@ fn modes_of_braced_frames_have_the_energy_of_braces() {
     let bare = assembled(&model);
     model.links = vec![braces(&[(0, 1), (1, 3)], 9e7, 1e5)];
     let system = assembled(&model);
-    let (own, links) = (&system.buildings[0], &system.buildings[0].inner_links);
+    let (building, links) = (&system.buildings[0], &system.buildings[0].inner_links);
     assert_eq!(links.len(), 2);
-    assert!(own.modes[0].period() < 0.9 * bare.buildings[0].modes[0].period());
-    let all = eigen::modes(own, 3).expect("it stands");
-    for (mode, lateral) in all.iter().zip(own.lateral_modes()) {
+    assert!(building.modes[0].period() < 0.9 * bare.buildings[0].modes[0].period());
+    let all = eigen::modes(building, 3).expect("it stands");
+    for (mode, lateral) in all.iter().zip(building.lateral_modes()) {
         assert!((mode.period() / lateral.period() - 1.0).abs() < 1e-9);
-        let mut force = vec![0.0; own.equations.len()];
-        own.equations
+        let mut force = vec![0.0; building.equations.len()];
+        building
+            .equations
             .stiffness
             .multiply_add(&mode.shape, &mut force);
-        own.equations.undamped.multiply_add(&mode.shape, &mut force);
+        building
+            .equations
+            .undamped
+            .multiply_add(&mode.shape, &mut force);
         let mut energy: f64 = force.iter().zip(&mode.shape).map(|(f, u)| f * u).sum();
         energy += links
             .iter()
@@ -450,10 +458,10 @@ fn a_pushover_with_links_is_in_equilibrium() {
         Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("it fits")
     };
     let with = |law: LinkLaw, floors: &[(usize, usize)]| {
-        let own = matches!(law, LinkLaw::Friction { .. } | LinkLaw::Yielding(_));
+        let inelastic = matches!(law, LinkLaw::Friction { .. } | LinkLaw::Yielding(_));
         Link {
             law,
-            ..braces(floors, if own { 0.0 } else { 6e7 }, 0.0)
+            ..braces(floors, if inelastic { 0.0 } else { 6e7 }, 0.0)
         }
     };
     let friction = LinkLaw::Friction {

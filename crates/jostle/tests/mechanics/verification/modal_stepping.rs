@@ -45,9 +45,10 @@ fn a_ramp_is_answered_exactly() {
             let outcome = run(&system, &motion, &modal(&steps(step, 1)));
             let (t, k, d) = (3.0, omega * omega, 2.0 * ratio * omega);
             // −rate/k (t − d/k + e^(−dt/2) (d/k cos ω′t + (d²/2k − 1)/ω′ sin ω′t))
-            let own = f64::sqrt(k - 0.25 * d * d);
+            let damped_frequency = f64::sqrt(k - 0.25 * d * d);
             let decay = (-0.5 * d * t).exp();
-            let wave = d / k * (own * t).cos() + (0.5 * d * d / k - 1.0) / own * (own * t).sin();
+            let wave = d / k * (damped_frequency * t).cos()
+                + (0.5 * d * d / k - 1.0) / damped_frequency * (damped_frequency * t).sin();
             let expected = -rate / k * (t - d / k + decay * wave);
             let got = outcome.state.displacement[0];
             assert!(
@@ -320,7 +321,7 @@ fn every_mode_decays_with_the_ratio() {
         // ∫ of the triangular pulse over e^(iωt) is 50·0.002·sinc²; the rest is free motion from its centre on.
         let omega = mode.circular_frequency;
         let (zeta, h): (f64, f64) = (0.05, 0.002);
-        let own = omega * (1.0 - zeta * zeta).sqrt();
+        let damped_frequency = omega * (1.0 - zeta * zeta).sqrt();
         let amplitude = |displacement: &[f64]| -> f64 {
             let terms = mode.shape.iter().zip(displacement).zip(&equations.mass);
             terms.map(|((shape, u), mass)| shape * mass * u).sum()
@@ -337,10 +338,10 @@ fn every_mode_decays_with_the_ratio() {
             }
             let (k, d) = (omega * omega, 2.0 * zeta * omega);
             let decay = (-0.5 * d * t).exp();
-            let (sin, cos) = (own * t).sin_cos();
-            let (a, b) = (d / k, (0.5 * d * d / k - 1.0) / own);
+            let (sin, cos) = (damped_frequency * t).sin_cos();
+            let (a, b) = (d / k, (0.5 * d * d / k - 1.0) / damped_frequency);
             let wave = a * cos + b * sin;
-            let slope = -0.5 * d * wave + own * (b * cos - a * sin);
+            let slope = -0.5 * d * wave + damped_frequency * (b * cos - a * sin);
             [(t - d / k + decay * wave) / k, (1.0 + decay * slope) / k]
         };
         let end = motion.duration;

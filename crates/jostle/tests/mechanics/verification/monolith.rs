@@ -53,9 +53,9 @@ pub(crate) fn monolith(
     let mut springs = Vec::new();
     for building in &system.buildings {
         let (equations, offset) = (&building.equations, building.offset);
-        let own = offset..offset + equations.len();
-        mass[own.clone()].copy_from_slice(&equations.mass);
-        driven[own].copy_from_slice(&equations.driven_mass);
+        let range = offset..offset + equations.len();
+        mass[range.clone()].copy_from_slice(&equations.mass);
+        driven[range].copy_from_slice(&equations.driven_mass);
         for dof in 0..equations.len() {
             damping[(offset + dof, offset + dof)] += equations.alpha * equations.mass[dof];
         }

@@ -20,12 +20,12 @@ fn impacts_start_before_they_end_and_follow_each_other() {
             outcome.impacts.len()
         );
         for contact in 0..system.contacts.len() {
-            let own: Vec<_> = outcome
+            let impacts: Vec<_> = outcome
                 .impacts
                 .iter()
                 .filter(|impact| impact.contact == contact)
                 .collect();
-            for impact in &own {
+            for impact in &impacts {
                 if kind == LawKind::Restitution && impact.peak_force == 0.0 {
                     assert!(impact.start == impact.end && impact.impulse > 0.0);
                     continue;
@@ -44,7 +44,7 @@ fn impacts_start_before_they_end_and_follow_each_other() {
                     "{kind:?}: {impact:?}"
                 );
             }
-            for pair in own.windows(2) {
+            for pair in impacts.windows(2) {
                 assert!(pair[0].end <= pair[1].start, "{kind:?}: {pair:?} overlap");
             }
         }
@@ -59,13 +59,13 @@ fn forces_act_during_impacts_only() {
     let time = column(&outcome, Column::TIME);
     for contact in 0..system.contacts.len() {
         let force = column(&outcome, Column::contact_force(contact));
-        let own: Vec<_> = outcome
+        let impacts: Vec<_> = outcome
             .impacts
             .iter()
             .filter(|impact| impact.contact == contact)
             .collect();
         for (t, force) in time.iter().zip(&force) {
-            let during = own
+            let during = impacts
                 .iter()
                 .any(|impact| impact.start <= *t && *t <= impact.end);
             assert!(
@@ -73,7 +73,7 @@ fn forces_act_during_impacts_only() {
                 "contact {contact}: {force} N at {t} s outside all impacts"
             );
         }
-        for impact in own {
+        for impact in impacts {
             let met = time
                 .iter()
                 .zip(&force)

@@ -63,7 +63,7 @@ fn portal(diagonals: Vec<Diagonal>) -> Frame {
     }
 }
 
-fn model(own: Frame) -> Model {
+fn model(frame: Frame) -> Model {
     let mut model = Model {
         title: "offset".to_owned(),
         buildings: vec![Building {
@@ -71,7 +71,7 @@ fn model(own: Frame) -> Model {
                 alpha: 0.3,
                 beta: 0.0,
             },
-            ..framed("A", own)
+            ..framed("A", frame)
         }],
         ..Model::default()
     };
@@ -146,10 +146,10 @@ fn solve(matrix: &[Vec<f64>], load: &[f64]) -> Vec<f64> {
         let best =
             (pivot..n).max_by(|a, b| rows[*a][pivot].abs().total_cmp(&rows[*b][pivot].abs()));
         rows.swap(pivot, best.unwrap_or(pivot));
-        let own = rows[pivot].clone();
+        let pivot_row = rows[pivot].clone();
         for row in rows.iter_mut().skip(pivot + 1) {
-            let share = row[pivot] / own[pivot];
-            for (value, above) in row.iter_mut().zip(&own) {
+            let share = row[pivot] / pivot_row[pivot];
+            for (value, above) in row.iter_mut().zip(&pivot_row) {
                 *value -= share * above;
             }
         }
@@ -173,19 +173,19 @@ const STRUT: [f64; 2] = [OFFSET, HEIGHT - OFFSET];
 fn flexibility_is_that_of_a_frame_with_nodes_on_the_columns() {
     let flexibility = |diagonals: Vec<Diagonal>| {
         let system = assembled(&model(portal(diagonals)));
-        let own = &system.buildings[0];
-        let mut load = vec![0.0; own.equations.len()];
-        load[own.floors[0].dof] = 1.0;
-        let moved = solve_once::<RiccatiSweep>(&own.structure, &StepMatrix::STATIC, &load);
-        moved.expect("it stands")[own.floors[0].dof]
+        let building = &system.buildings[0];
+        let mut load = vec![0.0; building.equations.len()];
+        load[building.floors[0].dof] = 1.0;
+        let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load);
+        moved.expect("it stands")[building.floors[0].dof]
     };
     let by_hand = |struts: &[[f64; 2]]| {
         // Nodes at the offset on both columns; those of other struts have no part.
         let frame = Portal { at: STRUT };
         let mut matrix = frame.stiffness();
         for at in struts {
-            let own = Portal { at: *at };
-            let mut row = own.elongation();
+            let portal = Portal { at: *at };
+            let mut row = portal.elongation();
             let length = SPAN.hypot(at[1] - at[0]);
             // At a joint it pulls the floor, and at a foot nothing.
             if at[0] == 0.0 {
@@ -234,7 +234,7 @@ fn yielding_struts_follow_an_integration_of_their_own() {
     let corners = Corners::bilinear(YIELD, HARDENING);
     let backbone = Backbone::from_forces(STIFFNESS, corners, corners).expect("sound");
     let law = Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("it fits");
-    let own = Diagonal {
+    let diagonal = Diagonal {
         hysteresis: Some(law),
         damage: Some(PanelDamage {
             drifts: PanelDamage::SASSUN,
@@ -242,7 +242,7 @@ fn yielding_struts_follow_an_integration_of_their_own() {
         }),
         ..strut(Rise::Right, [OFFSET; 2], StrutLine::Central)
     };
-    let model = model(portal(vec![own]));
+    let model = model(portal(vec![diagonal]));
     let motion = fading("along", 11.0, [1.6, 3.0], 300);
     let system = assembled(&model);
     let plan = steps(5e-4, 1);
@@ -299,7 +299,7 @@ fn yielding_struts_follow_an_integration_of_their_own() {
             kept += (trial.abs() - YIELD) / (first + hard) * trial.signum();
         }
         let force = first * (e - kept);
-        let node = [2, 3].map(|own| of_floor[own] * u + of_tension[own] * force);
+        let node = [2, 3].map(|dof| of_floor[dof] * u + of_tension[dof] * force);
         let part = bending(COLUMN, OFFSET);
         // What the foot bears: the horizontal force of the lower end of the column.
         let shear = -(part[0][2] * node[0] + part[0][3] * node[1]);
@@ -323,10 +323,15 @@ fn yielding_struts_follow_an_integration_of_their_own() {
         wall: 0.0,
     });
     let part = &summary.buildings[0].parts[0];
-    let left = moved.iter().fold(0.0, |most, own| f64::max(most, -own)) / HEIGHT;
+    let left = moved
+        .iter()
+        .fold(0.0, |most, column| f64::max(most, -column))
+        / HEIGHT;
     let drift = part.drift.expect("judged");
     close(drift, left, left, 1e-4, "drift");
-    let state = PanelDamage::SASSUN.iter().filter(|own| drift >= **own);
+    let state = PanelDamage::SASSUN
+        .iter()
+        .filter(|candidate| drift >= **candidate);
     assert_eq!(part.damage_state, Some(state.count()));
     assert!(part.damage_state > Some(0), "{drift}");
 }

@@ -25,10 +25,16 @@ fn frame(storeys: usize, spans: &[f64]) -> Frame {
 
 /// The same without mass, so that only floors have any.
 fn massless(mut frame: Frame) -> Frame {
-    frame.columns.iter_mut().for_each(|own| own.line_mass = 0.0);
+    frame
+        .columns
+        .iter_mut()
+        .for_each(|column| column.line_mass = 0.0);
     frame.beam_mass.iter_mut().for_each(|mass| *mass = 0.0);
     frame.column_segments = 1;
-    frame.beam_segments.iter_mut().for_each(|own| *own = 1);
+    frame
+        .beam_segments
+        .iter_mut()
+        .for_each(|beam_segment| *beam_segment = 1);
     frame
 }
 
@@ -94,8 +100,8 @@ fn run(model: &Model, duration: f64) -> (System, Outcome) {
 
 /// Floors of two runs, building by building; `share`: shears of the first over those of the second. Tolerances of displacements,
 /// and of forces and accelerations.
-fn same_floors(own: &Outcome, plane: &Outcome, share: f64, [tolerance, of_forces]: [f64; 2]) {
-    for (index, (own_floors, floors)) in own
+fn same_floors(outcome: &Outcome, plane: &Outcome, share: f64, [tolerance, of_forces]: [f64; 2]) {
+    for (index, (own_floors, floors)) in outcome
         .peaks
         .buildings()
         .zip(plane.peaks.buildings())
@@ -107,9 +113,9 @@ fn same_floors(own: &Outcome, plane: &Outcome, share: f64, [tolerance, of_forces
         let scale = most(|floor| floor.displacement_max().value);
         let shear = most(|floor| floor.storey_shear());
         for (a, b) in own_floors.iter().zip(&floors) {
-            let [a_max, b_max] = [a, b].map(|own| own.displacement_max().value);
+            let [a_max, b_max] = [a, b].map(|floor| floor.displacement_max().value);
             close(a_max, b_max, scale, tolerance, "right");
-            let [a_min, b_min] = [a, b].map(|own| own.displacement_min().value);
+            let [a_min, b_min] = [a, b].map(|floor| floor.displacement_min().value);
             close(a_min, b_min, scale, tolerance, "left");
             close(
                 a.storey_shear(),
@@ -126,7 +132,7 @@ fn same_floors(own: &Outcome, plane: &Outcome, share: f64, [tolerance, of_forces
                 "acceleration",
             );
         }
-        let [a, b] = [own, plane].map(|own| own.peaks.base_shear(index));
+        let [a, b] = [outcome, plane].map(|outcome| outcome.peaks.base_shear(index));
         close(a, share * b, share * b, of_forces, "base shear");
         let scale = most(|floor| floor.displacement_max().value);
         for floor in own_floors {
@@ -141,8 +147,8 @@ fn same_floors(own: &Outcome, plane: &Outcome, share: f64, [tolerance, of_forces
 fn frame_mass(frame: &Frame, floor: usize) -> f64 {
     let of_columns = |storey: usize| {
         let column = frame.columns.get(storey);
-        column.map_or(0.0, |own| {
-            0.5 * own.line_mass * frame.storey_heights[storey]
+        column.map_or(0.0, |column| {
+            0.5 * column.line_mass * frame.storey_heights[storey]
         })
     };
     let lines = (frame.spans.len() + 1) as f64;
@@ -168,13 +174,14 @@ fn four_equal_frames_are_twice_a_plane_frame() {
         plane.floor_mass[floor] = 0.5 * slab + frame_mass(&one, floor);
     }
     for damping in [ALL_MODES, FIVE_PERCENT] {
-        let own = model(vec![building("A", space.clone(), damping.clone())], vec![]);
+        let space_model = model(vec![building("A", space.clone(), damping.clone())], vec![]);
         let flat = building("A", Structure::Frame(plane.clone()), damping.clone());
         let flat = model(vec![flat], vec![]);
-        let [(system, outcome), (plane_system, plane_outcome)] = [run(&own, 8.0), run(&flat, 8.0)];
-        let [a, b] = [&system, &plane_system].map(|own| &own.buildings[0]);
+        let [(system, outcome), (plane_system, plane_outcome)] =
+            [run(&space_model, 8.0), run(&flat, 8.0)];
+        let [a, b] = [&system, &plane_system].map(|system| &system.buildings[0]);
         // What moves along x; the lower halves of columns of frames A and B stand on the ground.
-        let masses = [a, b].map(|own| own.equations.driven_mass.iter().sum::<f64>());
+        let masses = [a, b].map(|building| building.equations.driven_mass.iter().sum::<f64>());
         close(masses[0], 2.0 * masses[1], masses[0], 1e-12, "mass");
         close(
             a.equations.alpha,
@@ -196,9 +203,9 @@ fn four_equal_frames_are_twice_a_plane_frame() {
             .filter(|mode| mode.effective_mass_ratio_x > 0.01)
             .map(|mode| mode.circular_frequency)
             .collect();
-        for (own, plane) in along.iter().zip(&b.modes) {
+        for (circular_frequency, plane) in along.iter().zip(&b.modes) {
             let expected = plane.circular_frequency;
-            close(*own, expected, expected, 1e-9, "frequency");
+            close(*circular_frequency, expected, expected, 1e-9, "frequency");
         }
         // Reduced shapes of the plane keep the tolerance of 1e-6; all modes are exact.
         let tolerance = if damping == ALL_MODES { 1e-9 } else { 2e-6 };
@@ -206,20 +213,20 @@ fn four_equal_frames_are_twice_a_plane_frame() {
         // Forces of the columns of frame 1 are those of the plane frame.
         let peaks = |system: &System, outcome: &Outcome, frame: Option<usize>| {
             let members = system.buildings[0].members.members.iter();
-            let own = members.filter(|member| {
+            let members = members.filter(|member| {
                 member.frame == frame && matches!(member.place, MemberPlace::Column { .. })
             });
-            let forms = own.flat_map(|member| member.sections[0].forms);
+            let forms = members.flat_map(|member| member.sections[0].forms);
             let all: Vec<f64> = forms
                 .map(|form| outcome.members[0][form])
                 .map(|[most, least]| most.max(-least))
                 .collect();
             all
         };
-        let own = peaks(&system, &outcome, Some(0));
+        let got = peaks(&system, &outcome, Some(0));
         let expected = peaks(&plane_system, &plane_outcome, None);
-        assert_eq!(own.len(), expected.len());
-        for (index, (a, b)) in own.iter().zip(&expected).enumerate() {
+        assert_eq!(got.len(), expected.len());
+        for (index, (a, b)) in got.iter().zip(&expected).enumerate() {
             let kind = expected.iter().skip(index % 3).step_by(3);
             let scale = kind.copied().fold(0.0, f64::max);
             close(*a, *b, scale, tolerance, "force of a column");
@@ -260,11 +267,14 @@ fn frames_of_the_example_pound_in_plan_as_in_one_plane() {
     let space: Vec<Building> = ["J1", "J2"]
         .into_iter()
         .zip(&frames)
-        .map(|(name, own)| {
-            let (width, n): (f64, _) = (own.spans.iter().sum(), own.storey_heights.len());
+        .map(|(name, plane_frame)| {
+            let (width, n): (f64, _) = (
+                plane_frame.spans.iter().sum(),
+                plane_frame.storey_heights.len(),
+            );
             let brace = massless(frame(n, &[8.0]));
             let standing = vec![
-                standing("1", [start, 4.0], 0.0, own.clone()),
+                standing("1", [start, 4.0], 0.0, plane_frame.clone()),
                 standing("A", [start, 0.0], 0.5 * PI, brace.clone()),
                 standing("B", [start + width, 0.0], 0.5 * PI, brace),
             ];
@@ -282,13 +292,13 @@ fn frames_of_the_example_pound_in_plan_as_in_one_plane() {
         })
         .collect();
     let (_, flat) = run(&model(plane, vec![Gap::after(0, 0.03, CONCRETE)]), 4.0);
-    let (_, own) = run(&model(space, vec![Gap::after(0, 0.03, CONCRETE)]), 4.0);
+    let (_, spatial) = run(&model(space, vec![Gap::after(0, 0.03, CONCRETE)]), 4.0);
     assert!(flat.impacts.len() > 2, "{} impacts", flat.impacts.len());
-    assert_eq!(own.face_impacts.len(), flat.impacts.len());
+    assert_eq!(spatial.face_impacts.len(), flat.impacts.len());
     // Steps while contacts are closed follow from the tolerance of 1e-6, and differ between the two models.
-    same_floors(&own, &flat, 1.0, [1e-9, 1e-7]);
+    same_floors(&spatial, &flat, 1.0, [1e-9, 1e-7]);
     let strongest = |peaks: &mut dyn Iterator<Item = f64>| peaks.fold(0.0, f64::max);
-    let face = strongest(&mut own.face_impacts.iter().map(|i| i.peak_force.value));
+    let face = strongest(&mut spatial.face_impacts.iter().map(|i| i.peak_force.value));
     let contact = strongest(&mut flat.impacts.iter().map(|i| i.peak_force));
     close(face, contact, contact, 1e-7, "force");
 }
@@ -488,11 +498,11 @@ fn stiffness_by_hand(tiers: &Tiers) -> by_hand::Dense {
             })
             .collect();
         for (axis, direction) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
-            let mut own = shears.clone();
-            for value in own.iter_mut().flatten() {
+            let mut shears = shears.clone();
+            for value in shears.iter_mut().flatten() {
                 *value *= springs.stiffness[axis];
             }
-            by_hand::add_at_line(&mut sum, &own, springs.centre, direction, &centres);
+            by_hand::add_at_line(&mut sum, &shears, springs.centre, direction, &centres);
         }
         for (i, row) in shears.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
@@ -506,14 +516,15 @@ fn stiffness_by_hand(tiers: &Tiers) -> by_hand::Dense {
 /// Where joints rise, so does the mass that they carry: K alone is compared, by what forces on the floors move.
 fn flexibility_is_that_by_hand(tiers: Tiers, k: &by_hand::Dense) {
     let n = tiers.floors.len();
-    let own = building("A", Structure::Tiers(tiers), FIVE_PERCENT);
-    let system = assembled(&model(vec![own], vec![]));
-    let own = &system.buildings[0];
-    let dof = |at: usize| own.tracks[(at % 3) * n + at / 3].dof;
+    let building = building("A", Structure::Tiers(tiers), FIVE_PERCENT);
+    let system = assembled(&model(vec![building], vec![]));
+    let building = &system.buildings[0];
+    let dof = |at: usize| building.tracks[(at % 3) * n + at / 3].dof;
     for pushed in 0..3 * n {
-        let mut load = vec![0.0; own.equations.len()];
+        let mut load = vec![0.0; building.equations.len()];
         load[dof(pushed)] = 1e6;
-        let moved = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
+        let moved =
+            solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load).expect("it stands");
         for (at, row) in k.iter().enumerate() {
             let all = row.iter().enumerate();
             let resisted: f64 = all.map(|(other, k)| k * moved[dof(other)]).sum();
@@ -539,14 +550,14 @@ fn modes_are_those_of_matrices_assembled_by_hand() {
             .iter()
             .flat_map(|floor| [floor.mass, floor.mass, floor.polar_mass])
             .collect();
-        let own = building("A", Structure::Tiers(tiers), FIVE_PERCENT);
-        let system = assembled(&model(vec![own], vec![]));
-        let own = &system.buildings[0];
-        assert_eq!(own.modes.len(), 3 * n);
-        for mode in &own.modes {
+        let building = building("A", Structure::Tiers(tiers), FIVE_PERCENT);
+        let system = assembled(&model(vec![building], vec![]));
+        let building = &system.buildings[0];
+        assert_eq!(building.modes.len(), 3 * n);
+        for mode in &building.modes {
             // Along, across and rotation of every floor.
             let shape: Vec<f64> = (0..3 * n)
-                .map(|at| mode.shape[own.tracks[(at % 3) * n + at / 3].dof])
+                .map(|at| mode.shape[building.tracks[(at % 3) * n + at / 3].dof])
                 .collect();
             let squared = mode.circular_frequency.powi(2);
             let inertia: Vec<f64> = mass
@@ -592,29 +603,29 @@ fn columns_carry_what_pushes_the_floors() {
         tiers.frames[0].lines = vec![Some("A1".to_owned()), None, None];
         tiers.frames[2].lines = vec![Some("A1".to_owned()), None, None];
         let n = tiers.floors.len();
-        let own = building("A", Structure::Tiers(tiers.clone()), FIVE_PERCENT);
-        let system = assembled(&model(vec![own], vec![]));
-        let own = &system.buildings[0];
+        let building = building("A", Structure::Tiers(tiers.clone()), FIVE_PERCENT);
+        let system = assembled(&model(vec![building], vec![]));
+        let building = &system.buildings[0];
         let pushes = [[1e5, -4e4, 3e5], [-2e4, 7e4, -1e5], [5e4, 6e4, 2e5]];
-        let mut load = vec![0.0; own.equations.len()];
+        let mut load = vec![0.0; building.equations.len()];
         for (floor, push) in pushes.iter().enumerate() {
             for (direction, force) in push.iter().enumerate() {
-                load[own.tracks[direction * n + floor].dof] = *force;
+                load[building.tracks[direction * n + floor].dof] = *force;
             }
         }
         let statics = StepMatrix::STATIC;
-        let answer = solve_once::<RiccatiSweep>(own, &statics, &load).expect("it stands");
+        let answer = solve_once::<RiccatiSweep>(building, &statics, &load).expect("it stands");
         let mut state = State::at_rest(&system, 0.0);
         state.displacement.copy_from_slice(&answer);
-        let mut forces = vec![0.0; own.members.forms.len()];
-        own.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
+        let mut forces = vec![0.0; building.members.forms.len()];
+        building.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
         let of = |member: &jostle::structure::MemberSections, section: usize, kind: usize| {
             forces[member.sections[section].forms[kind]]
         };
         for storey in 0..n {
             // Along x, across, and about the origin of the site.
             let mut sum = [0.0; 3];
-            for member in &own.members.members {
+            for member in &building.members.members {
                 let MemberPlace::Column { storey: at, .. } = member.place else {
                     continue;
                 };
@@ -641,7 +652,7 @@ fn columns_carry_what_pushes_the_floors() {
         }
         let mut moments = [0.0; 2];
         let mut shared = 0;
-        for member in &own.members.members {
+        for member in &building.members.members {
             let MemberPlace::Column { line, storey: 1 } = member.place else {
                 continue;
             };
@@ -679,13 +690,14 @@ fn a_turned_building_has_the_same_modes() {
     let (mut tiers, _) = without_symmetry(true);
     tiers.storeys.clear();
     // Masses between floors in all frames along the axes.
-    for own in &mut tiers.frames[..4] {
-        own.frame
+    for frame in &mut tiers.frames[..4] {
+        frame
+            .frame
             .columns
             .iter_mut()
             .for_each(|column| column.line_mass = 500.0);
-        own.frame.beam_mass.fill(2000.0);
-        own.frame.column_segments = 3;
+        frame.frame.beam_mass.fill(2000.0);
+        frame.frame.column_segments = 3;
     }
     let mut turned = tiers.clone();
     let turn = |[x, y]: PlanPoint| [-y, x];
@@ -696,18 +708,18 @@ fn a_turned_building_has_the_same_modes() {
             .iter_mut()
             .for_each(|corner| *corner = turn(*corner));
     }
-    for own in &mut turned.frames {
-        (own.at, own.direction) = (turn(own.at), turn(own.direction));
+    for frame in &mut turned.frames {
+        (frame.at, frame.direction) = (turn(frame.at), turn(frame.direction));
     }
     let modes = |tiers: Tiers| {
-        let own = building("A", Structure::Tiers(tiers), ALL_MODES);
-        let mut system = assembled(&model(vec![own], vec![]));
+        let building = building("A", Structure::Tiers(tiers), ALL_MODES);
+        let mut system = assembled(&model(vec![building], vec![]));
         system.buildings.remove(0)
     };
-    let [own, other] = [modes(tiers), modes(turned)];
-    let total = own.equations.total_mass();
+    let [one, other] = [modes(tiers), modes(turned)];
+    let total = one.equations.total_mass();
     close(total, other.equations.total_mass(), total, 1e-12, "mass");
-    for (a, b) in own.modes.iter().zip(&other.modes) {
+    for (a, b) in one.modes.iter().zip(&other.modes) {
         close(
             a.circular_frequency,
             b.circular_frequency,
@@ -737,7 +749,7 @@ fn a_turned_building_has_the_same_modes() {
             "torsion",
         );
     }
-    let sums = own.modes.iter().fold([0.0; 3], |[x, y, t], mode| {
+    let sums = one.modes.iter().fold([0.0; 3], |[x, y, t], mode| {
         [
             x + mode.effective_mass_ratio_x,
             y + mode.effective_mass_ratio_across,

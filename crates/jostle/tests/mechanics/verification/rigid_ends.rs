@@ -34,7 +34,7 @@ const PORTAL: [f64; 6] = [3.6, 6.4, 6e7, 9e7, 0.3, 0.35];
 
 fn portal() -> Frame {
     let [height, span, column, beam, a, b] = PORTAL;
-    let mut own = Frame {
+    let mut frame = Frame {
         storey_heights: vec![height],
         spans: vec![span],
         columns: vec![bending(column)],
@@ -46,9 +46,9 @@ fn portal() -> Frame {
         ..Frame::default()
     };
     for line in 0..2 {
-        own.rigid_zones.insert([0, line], [a, b]);
+        frame.rigid_zones.insert([0, line], [a, b]);
     }
-    own
+    frame
 }
 
 /// Stiffness of that portal against sway, if its columns have no weight, by virtual displacements u of the floor and θ of both joints.
@@ -62,7 +62,7 @@ fn stiffness_of_portal(weight: f64, hinge: Option<f64>) -> f64 {
     let ut = 2.0 * (12.0 * c * b + 6.0 * c * h) - 2.0 * weight * b / h;
     // A hinge at either end of the beam is in series with 6 EI/l.
     let end = 6.0 * beam / l;
-    let end = hinge.map_or(end, |own| own * end / (own + end));
+    let end = hinge.map_or(end, |hinge| hinge * end / (hinge + end));
     let tt = 2.0 * c * (12.0 * b * b + 12.0 * h * b + 4.0 * h * h)
         + 2.0 * end * (span / l) * (span / l)
         - 2.0 * weight * (b * b / h + b);
@@ -72,14 +72,14 @@ fn stiffness_of_portal(weight: f64, hinge: Option<f64>) -> f64 {
 /// How far the floor sways under a unit force there.
 fn sway(model: &Model) -> f64 {
     let system = assembled(model);
-    let own = &system.buildings[0];
-    let mut load = vec![0.0; own.equations.len()];
-    load[own.floors[0].dof] = 1.0;
+    let building = &system.buildings[0];
+    let mut load = vec![0.0; building.equations.len()];
+    load[building.floors[0].dof] = 1.0;
     let solved = [
-        solve_once::<RiccatiSweep>(&own.structure, &StepMatrix::STATIC, &load),
-        solve_once::<DirectStiffness>(&own.structure, &StepMatrix::STATIC, &load),
+        solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load),
+        solve_once::<DirectStiffness>(&building.structure, &StepMatrix::STATIC, &load),
     ];
-    let [one, other] = solved.map(|moved| moved.expect("it stands")[own.floors[0].dof]);
+    let [one, other] = solved.map(|moved| moved.expect("it stands")[building.floors[0].dof]);
     close(one, other, one, 1e-11, "two solvers");
     one
 }
@@ -163,7 +163,7 @@ impl Plane {
         let across = |u: f64, v: f64| c * v - s * u;
         let stretched = along(moved[3], moved[4]) - along(moved[0], moved[1]);
         let chord = (across(moved[3], moved[4]) - across(moved[0], moved[1])) / length;
-        let end = |own: f64, other: f64| ei / length * (4.0 * own + 2.0 * other - 6.0 * chord);
+        let end = |value: f64, other: f64| ei / length * (4.0 * value + 2.0 * other - 6.0 * chord);
         let [first, last] = [end(moved[2], moved[5]), end(moved[5], moved[2])];
         let (axial, shear) = (ea / length * stretched, (first + last) / length);
         [
@@ -205,11 +205,11 @@ impl Plane {
             let best =
                 (pivot..n).max_by(|a, b| rows[*a][pivot].abs().total_cmp(&rows[*b][pivot].abs()));
             rows.swap(pivot, best.expect("a row"));
-            let own = rows[pivot].clone();
+            let pivot_row = rows[pivot].clone();
             for row in rows.iter_mut().skip(pivot + 1) {
-                let factor = row[pivot] / own[pivot];
+                let factor = row[pivot] / pivot_row[pivot];
                 row.iter_mut()
-                    .zip(&own)
+                    .zip(&pivot_row)
                     .for_each(|(to, of)| *to -= factor * of);
             }
         }
@@ -228,7 +228,7 @@ fn uneven() -> Frame {
         axial_rigidity: Some(3e9),
         ..bending(flexural_rigidity)
     };
-    let mut own = Frame {
+    let mut frame = Frame {
         storey_heights: vec![4.0, 3.2],
         spans: vec![5.0, 6.5],
         columns: vec![section(9e7), section(6e7)],
@@ -243,8 +243,8 @@ fn uneven() -> Frame {
         },
         ..Frame::default()
     };
-    own.own_columns.insert([1, 2], None);
-    own.own_beams.insert([1, 1], None);
+    frame.own_columns.insert([1, 2], None);
+    frame.own_beams.insert([1, 1], None);
     for (place, zone) in [
         ([0, 0], [0.25, 0.3]),
         ([0, 1], [0.35, 0.4]),
@@ -252,9 +252,9 @@ fn uneven() -> Frame {
         ([1, 0], [0.0, 0.3]),
         ([1, 1], [0.25, 0.3]),
     ] {
-        own.rigid_zones.insert(place, zone);
+        frame.rigid_zones.insert(place, zone);
     }
-    own
+    frame
 }
 
 /// A frame, all its members, those with names, and joints as floor, line and node.
@@ -278,8 +278,8 @@ fn explicit(frame: &Frame) -> Explicit {
     }
     let (mut all, mut named) = (Vec::new(), Vec::new());
     let mut add =
-        |plane: &mut Plane, place, ends: [usize; 2], arms: [[f64; 2]; 2], own: &Section| {
-            let ea = own.axial_rigidity.expect("EA");
+        |plane: &mut Plane, place, ends: [usize; 2], arms: [[f64; 2]; 2], section: &Section| {
+            let ea = section.axial_rigidity.expect("EA");
             let faces = [0, 1].map(|side| {
                 let ([dx, dy], [x, y]) = (arms[side], plane.nodes[ends[side]]);
                 if dx == 0.0 && dy == 0.0 {
@@ -288,13 +288,13 @@ fn explicit(frame: &Frame) -> Explicit {
                 let face = plane.node([x + dx, y + dy]);
                 all.push((
                     [ends[side], face],
-                    STIFF * own.flexural_rigidity,
+                    STIFF * section.flexural_rigidity,
                     STIFF * ea,
                 ));
                 face
             });
-            all.push((faces, own.flexural_rigidity, ea));
-            named.push((place, (faces, own.flexural_rigidity, ea)));
+            all.push((faces, section.flexural_rigidity, ea));
+            named.push((place, (faces, section.flexural_rigidity, ea)));
         };
     for ([storey, line], section) in frame.all_columns() {
         let foot = match storey {
@@ -345,17 +345,17 @@ fn a_frame_moves_and_bears_as_with_short_stiff_members() {
     let frame = uneven();
     let (plane, beams, named, joints) = explicit(&frame);
     let system = assembled(&alone(frame));
-    let own = &system.buildings[0];
-    let sticks = &own.structure.discretization.stick_model;
+    let building = &system.buildings[0];
+    let sticks = &building.structure.discretization.stick_model;
     // Pushed sideways, down and round at every joint.
-    let (mut load, mut loads) = (vec![0.0; own.equations.len()], Vec::new());
+    let (mut load, mut loads) = (vec![0.0; building.equations.len()], Vec::new());
     let mut found = Vec::new();
     for [floor, line, node] in joints {
         let at = plane.nodes[node];
         let mut nodes = sticks.nodes.iter();
-        let joint = nodes.position(|own| own.x == at[0] && (own.y - at[1]).abs() < 1e-9);
+        let joint = nodes.position(|node| node.x == at[0] && (node.y - at[1]).abs() < 1e-9);
         let joint = joint.expect("a joint");
-        let equations = &own.equations;
+        let equations = &building.equations;
         let dofs = [
             equations.horizontal(joint),
             equations.vertical(joint),
@@ -374,7 +374,7 @@ fn a_frame_moves_and_bears_as_with_short_stiff_members() {
         }
     }
     let expected = plane.solve(&beams, 3, &loads);
-    let moved = solve_once::<RiccatiSweep>(&own.structure, &StepMatrix::STATIC, &load);
+    let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load);
     let moved = moved.expect("it stands");
     let most = found
         .iter()
@@ -383,9 +383,9 @@ fn a_frame_moves_and_bears_as_with_short_stiff_members() {
         close(moved[dof], expected[at], most, 2e-6, "displacement");
     }
     let state = moving(&system, &moved, &vec![0.0; moved.len()]);
-    let mut values = vec![0.0; own.members.forms.len()];
-    own.member_forces(&state, &[], 0.0, |form, value| values[form] = value);
-    assert_eq!(own.members.members.len(), named.len());
+    let mut values = vec![0.0; building.members.forms.len()];
+    building.member_forces(&state, &[], 0.0, |form, value| values[form] = value);
+    assert_eq!(building.members.members.len(), named.len());
     for (place, beam) in named {
         let ends = beam.0;
         let displaced: Vec<f64> = ends
@@ -393,8 +393,10 @@ fn a_frame_moves_and_bears_as_with_short_stiff_members() {
             .flat_map(|node| expected[3 * node..3 * node + 3].to_vec())
             .collect();
         let forces = plane.forces(beam, displaced.as_slice().try_into().expect("six"));
-        let mut members = own.members.members.iter();
-        let member = members.find(|own| own.place == place).expect("a member");
+        let mut members = building.members.members.iter();
+        let member = members
+            .find(|member| member.place == place)
+            .expect("a member");
         for (side, section) in member.sections.iter().take(2).enumerate() {
             let at = &forces[3 * side..];
             let outwards = [-1.0, 1.0][side];
@@ -423,7 +425,7 @@ fn forces_and_energies_balance_while_it_yields() {
     frame
         .columns
         .iter_mut()
-        .for_each(|own| own.line_mass = 500.0);
+        .for_each(|column| column.line_mass = 500.0);
     let mass = 2.0 * 2e4 + 3000.0 * (2.0 * 5.0 + 6.5) + 500.0 * (3.0 * 4.0 + 2.0 * 3.2);
     let corners = Corners::bilinear(9e4, 0.03);
     let hinge = |initial: f64| {
@@ -441,15 +443,15 @@ fn forces_and_energies_balance_while_it_yields() {
         ..FrameHinges::default()
     }));
     let system = assembled(&model);
-    let own = &system.buildings[0];
-    close(own.equations.total_mass(), mass, mass, 1e-12, "mass");
+    let building = &system.buildings[0];
+    close(building.equations.total_mass(), mass, mass, 1e-12, "mass");
     // Half of the lowest segments rests on the feet.
     let mass = mass - 500.0 * (3.7 + 3.6 + 4.0) / 6.0;
     let forces = |state: &State, form: usize| {
-        let mut values = vec![0.0; own.members.forms.len()];
-        own.member_forces(state, &[], 0.0, |form, value| values[form] = value);
+        let mut values = vec![0.0; building.members.forms.len()];
+        building.member_forces(state, &[], 0.0, |form, value| values[form] = value);
         let mut sums = [0.0; 2];
-        for member in &own.members.members {
+        for member in &building.members.members {
             if let MemberPlace::Column { storey, .. } = member.place {
                 sums[storey - 1] += values[member.sections[0].forms[form]];
             }
@@ -475,14 +477,14 @@ fn forces_and_energies_balance_while_it_yields() {
     let mut storeys = [0.0; 2];
     let spring = |index: usize| outcome.state.springs[index].force();
     let moved = &outcome.state.displacement;
-    own.structure.storeys.for_each(
+    building.structure.storeys.for_each(
         moved,
         spring,
         |_| 0.0,
         |storey, force| storeys[storey] = force.shear,
     );
-    for (own, storey) in sheared.into_iter().zip(storeys) {
-        close(own, storey, 1e5, 1e-9, "shear of a storey");
+    for (force, storey) in sheared.into_iter().zip(storeys) {
+        close(force, storey, 1e5, 1e-9, "shear of a storey");
     }
 }
 
@@ -501,8 +503,8 @@ fn rigid_ends_are_not_struck() {
         if let Structure::Frame(frame) = &mut model.buildings[1].structure {
             frame.storey_heights = vec![height];
         }
-        for own in &mut model.buildings {
-            if let Structure::Frame(frame) = &mut own.structure {
+        for building in &mut model.buildings {
+            if let Structure::Frame(frame) = &mut building.structure {
                 frame.columns[0].line_mass = 600.0;
             }
         }

@@ -28,7 +28,7 @@ fn limit(of: LimitedMembers, measure: RotationMeasure, values: [f64; 3]) -> Rota
 }
 
 fn model(limits: Vec<RotationLimit>) -> Model {
-    let own: Frame = frame(2, &[5.0], concrete(0.4, 0.4), concrete(0.3, 0.5));
+    let frame: Frame = frame(2, &[5.0], concrete(0.4, 0.4), concrete(0.3, 0.5));
     let hinges = FrameHinges {
         columns: vec![vec![hinge(6e9, 9e4); 2]; 2],
         beams: vec![vec![hinge(4e9, 6e4); 1]; 2],
@@ -38,7 +38,7 @@ fn model(limits: Vec<RotationLimit>) -> Model {
         title: "limits".to_owned(),
         buildings: vec![Building {
             name: "A".to_owned(),
-            structure: Structure::Frame(own),
+            structure: Structure::Frame(frame),
             hinges: Some(Hinges::Frame(hinges)),
             damping: Damping::Rayleigh {
                 alpha: 0.4,
@@ -59,8 +59,8 @@ fn levels(model: &Model, duration: f64) -> RotationLevelsSummary {
     let mut motion = fading("along", 7.0, [2.0, 3.0], 400);
     motion.duration = duration;
     let (_, _, summary) = runs::run_and_summary(model, &motion);
-    let own = summary.buildings[0].rotation_levels.clone();
-    own.expect("it has limits")
+    let rotation_levels = summary.buildings[0].rotation_levels.clone();
+    rotation_levels.expect("it has limits")
 }
 
 /// A level is passed in the step at whose end the rotation first exceeds its limit: runs that end a step before have not passed it.
@@ -75,20 +75,20 @@ fn levels_are_passed_when_rotations_exceed_them() {
         println!("{found:?}");
         assert_eq!(found.members, 6);
         assert!(found.beyond_io > 0 && found.beyond_io >= found.beyond_ls);
-        for own in found.list.iter().take(2) {
-            for level in &own.limits {
+        for member in found.list.iter().take(2) {
+            for level in &member.limits {
                 let Some(at) = level.beyond_s else {
-                    assert!(own.rotation_rad <= level.limit_rad);
+                    assert!(member.rotation_rad <= level.limit_rad);
                     continue;
                 };
-                assert!(own.rotation_rad > level.limit_rad);
+                assert!(member.rotation_rad > level.limit_rad);
                 let of = |duration: f64| {
                     let all = levels(&model, duration).list.into_iter();
-                    let mut own = all.filter(|other| other.member == own.member);
-                    own.next().expect("listed").rotation_rad
+                    let mut others = all.filter(|other| other.member == member.member);
+                    others.next().expect("listed").rotation_rad
                 };
-                assert!(of(at - STEP) <= level.limit_rad, "{own:?}");
-                assert!(of(at) > level.limit_rad, "{own:?}");
+                assert!(of(at - STEP) <= level.limit_rad, "{member:?}");
+                assert!(of(at) > level.limit_rad, "{member:?}");
             }
         }
     }
@@ -98,7 +98,7 @@ fn levels_are_passed_when_rotations_exceed_them() {
 #[test]
 fn both_measures_are_those_of_the_hinge() {
     let of = |measure| {
-        let own = levels(
+        let levels = levels(
             &model(vec![limit(
                 LimitedMembers::Columns,
                 measure,
@@ -106,7 +106,7 @@ fn both_measures_are_those_of_the_hinge() {
             )]),
             8.0,
         );
-        own.list[0].clone()
+        levels.list[0].clone()
     };
     let (plastic, chord) = (of(RotationMeasure::Plastic), of(RotationMeasure::Chord));
     assert_eq!(plastic.member, chord.member);

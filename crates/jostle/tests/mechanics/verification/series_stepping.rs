@@ -121,11 +121,11 @@ fn apart(first: &Outcome, second: &Outcome) -> (f64, String) {
     }
     for kind in [Kind::Shear, Kind::Closing, Kind::Force, Kind::Work] {
         for owner in ["building", "contact", "gap", "spring"] {
-            let own = |run: &Outcome| {
-                let is_own = |own: Column| own.owner.name() == owner && own.kind == kind;
+            let sizes = |run: &Outcome| {
+                let is_own = |column: Column| column.owner.name() == owner && column.kind == kind;
                 run.peaks.sizes(is_own)
             };
-            let pairs = own(first).into_iter().zip(own(second));
+            let pairs = sizes(first).into_iter().zip(sizes(second));
             take(
                 format!("{kind:?} of {owner}"),
                 pairs.map(|(a, b)| [a, b]).collect(),
@@ -255,20 +255,20 @@ fn the_tolerance_is_kept() {
             let period = 0.1 * storeys as f64 * random.between(0.6, 2.0);
             let rule = RULES[random.whole(0, RULES.len() - 1)];
             let mass = random.between(2e4, 2e5);
-            let mut own = yielding(
+            let mut yielding = yielding(
                 tower(name, storeys, mass, period),
                 rule,
                 random.between(0.002, 0.02),
             );
             if random.coin() {
-                own.gravity.p_delta = true;
+                yielding.gravity.p_delta = true;
             }
-            own
+            yielding
         };
         let pair = vec![building("left"), building("right")];
         let kind = LawKind::ALL[random.whole(0, LawKind::ALL.len() - 1)];
-        let own = law(kind, random.between(0.4, 0.9));
-        let system = assembled(&row(pair, random.between(0.002, 0.03), own));
+        let law = law(kind, random.between(0.4, 0.9));
+        let system = assembled(&row(pair, random.between(0.002, 0.03), law));
         let run = |tolerance: f64| {
             let plan = plan(&system, &motion, &at_tolerance(tolerance));
             assert_eq!(plan.solver, Solver::Series);

@@ -124,7 +124,7 @@ fn two_cantilevers_are_pushed_as_by_hand() {
     let curve = pushed(&system, 0.03);
     let mut failures = Vec::new();
     for point in &curve.points {
-        let due: f64 = columns.iter().map(|own| own.force(point.roof)).sum();
+        let due: f64 = columns.iter().map(|column| column.force(point.roof)).sum();
         assert!(
             (point.base_shear - due).abs() < 1e-8 * 7e5,
             "{} N instead of {due} N at {} m",
@@ -138,9 +138,9 @@ fn two_cantilevers_are_pushed_as_by_hand() {
     // Origin, two failures, two ends of falling branches, the target.
     assert_eq!(curve.points.len(), 6, "{:?}", curve.points);
     assert_eq!(curve.failures(), 2);
-    for ((spring, roof), (index, own)) in failures.iter().zip(columns.iter().enumerate()) {
+    for ((spring, roof), (index, column)) in failures.iter().zip(columns.iter().enumerate()) {
         assert_eq!(*spring, index);
-        let due = own.strength / own.stiffness();
+        let due = column.strength / column.stiffness();
         assert!(
             (roof / due - 1.0).abs() < 1e-9,
             "{roof} m instead of {due} m"
@@ -157,8 +157,8 @@ fn two_cantilevers_are_pushed_as_by_hand() {
 /// F = V(δ) − P δ/L.
 #[test]
 fn what_a_column_slides_leans_as_the_drift_of_its_storey_does() {
-    let own = Cantilever::new(3e5, 8e6, 1e5);
-    let mut building = two_cantilevers([own; 2], 1e5);
+    let cantilever = Cantilever::new(3e5, 8e6, 1e5);
+    let mut building = two_cantilevers([cantilever; 2], 1e5);
     building.gravity = Gravity {
         preload: false,
         p_delta: true,
@@ -167,20 +167,20 @@ fn what_a_column_slides_leans_as_the_drift_of_its_storey_does() {
     let curve = pushed(&system, 0.05);
     let load = 0.5 * 1e5 * STANDARD_GRAVITY / HEIGHT;
     // Rotations of the head condensed out of [12, 6; 6, 4] EI with −P/L on the displacements.
-    let bending = own.column - load;
-    let falling = 1.0 / (1.0 / own.slope + 1.0 / own.column);
+    let bending = cantilever.column - load;
+    let falling = 1.0 / (1.0 / cantilever.slope + 1.0 / cantilever.column);
     for point in &curve.points[1..] {
         let each = 0.5 * point.base_shear;
         let slid = point.roof - each / bending;
-        let failure = own.strength / own.spring;
+        let failure = cantilever.strength / cantilever.spring;
         let shear = if slid <= failure * (1.0 + 1e-9) {
-            own.spring * slid
+            cantilever.spring * slid
         } else {
-            (own.strength - falling * (slid - failure)).max(own.residual)
+            (cantilever.strength - falling * (slid - failure)).max(cantilever.residual)
         };
         let due = shear - load * slid;
         assert!(
-            (each - due).abs() < 1e-7 * own.strength,
+            (each - due).abs() < 1e-7 * cantilever.strength,
             "{each} N instead of {due} N at {} m",
             point.roof
         );
@@ -276,8 +276,8 @@ fn failing_columns_move_as_one_mass_by_central_differences() {
     ];
     let mass = 4e4;
     let wave = |t: f64| {
-        let own = |frequency: f64| (std::f64::consts::TAU * frequency * t).sin();
-        4.5 * t.min(1.0) * (own(1.7) + 0.6 * own(3.1))
+        let sin = |frequency: f64| (std::f64::consts::TAU * frequency * t).sin();
+        4.5 * t.min(1.0) * (sin(1.7) + 0.6 * sin(3.1))
     };
     let interval = 0.002;
     let values: Vec<f64> = (0..=2500).map(|k| wave(f64::from(k) * interval)).collect();
@@ -328,8 +328,8 @@ fn failing_columns_move_as_one_mass_by_central_differences() {
 /// Strength falls along a line over the ductility of a hinge at the foot: the column fails where both lines meet.
 #[test]
 fn strength_falls_with_the_ductility_of_the_hinge() {
-    let own = Cantilever::new(3e5, 8e6, 0.0);
-    let mut building = two_cantilevers([own; 2], 4e4);
+    let cantilever = Cantilever::new(3e5, 8e6, 0.0);
+    let mut building = two_cantilevers([cantilever; 2], 4e4);
     // Yields at 240 kN · 3.2 m; the strength falls from 300 kN at ductility 2 to 210 kN at 6.
     let moment = 2.4e5 * HEIGHT;
     let initial = 5e9;
@@ -370,7 +370,7 @@ fn strength_falls_with_the_ductility_of_the_hinge() {
         }
     }
     let force = moment_at(low) / HEIGHT;
-    let roof = HEIGHT * low + force / own.column + force / own.spring;
+    let roof = HEIGHT * low + force / cantilever.column + force / cantilever.spring;
     // Within a part of the target, in which ductility is followed.
     assert!(
         (failed.roof - roof).abs() < 1.1 * 0.08 * HEIGHT / 400.0 && failed.roof >= roof - 1e-9,
@@ -392,7 +392,12 @@ struct Tangents {
 
 /// Force per displacement at the beam of a portal frame, from nine equations: displacement of the beam, rotations of both
 /// joints, and of each column its rotations beyond the hinges and its slip at the foot.
-fn slope_of_portal(height: f64, column: f64, [span, beam]: [f64; 2], own: [Tangents; 2]) -> f64 {
+fn slope_of_portal(
+    height: f64,
+    column: f64,
+    [span, beam]: [f64; 2],
+    column_tangents: [Tangents; 2],
+) -> f64 {
     const SIZE: usize = 9;
     let mut matrix = [[0.0; SIZE]; SIZE];
     // Adds k (Σ aᵢ xᵢ)²/2.
@@ -406,7 +411,7 @@ fn slope_of_portal(height: f64, column: f64, [span, beam]: [f64; 2], own: [Tange
     // Of a beam: 12 EI/L³ (w₂ − w₁ − L (θ₁ + θ₂)/2)² and EI/L (θ₂ − θ₁)².
     spring(beam / span, &[(1, 1.0), (2, -1.0)]);
     spring(3.0 * beam / span, &[(1, 1.0), (2, 1.0)]);
-    for (index, tangents) in own.iter().enumerate() {
+    for (index, tangents) in column_tangents.iter().enumerate() {
         let (joint, foot, head, slip) = (1 + index, 3 + index, 5 + index, 7 + index);
         // A displacement to the right turns the axis clockwise.
         let half = 0.5 * height;
@@ -438,10 +443,10 @@ fn slope_of_portal(height: f64, column: f64, [span, beam]: [f64; 2], own: [Tange
 /// are those of a portal frame with these tangents.
 #[test]
 fn a_column_that_fails_unloads_its_hinges() {
-    let weightless = |own: jostle::Section| jostle::Section {
+    let weightless = |section: jostle::Section| jostle::Section {
         axial_rigidity: None,
         line_mass: 0.0,
-        ..own
+        ..section
     };
     let span = 6.0;
     let frame = Frame {
@@ -458,7 +463,7 @@ fn a_column_that_fails_unloads_its_hinges() {
         frame.beams[0].flexural_rigidity,
     );
     let column = 12.0 * rigidity / HEIGHT.powi(3);
-    let own = |strength: f64| Cantilever {
+    let cantilever = |strength: f64| Cantilever {
         column,
         spring: 1e4 * column,
         strength,
@@ -481,7 +486,10 @@ fn a_column_that_fails_unloads_its_hinges() {
     };
     building.hinges = Some(Hinges::Frame(FrameHinges {
         columns: vec![vec![hinge.expect("sound"); 2]],
-        shear: vec![vec![own(1.5e5).shear_spring(), own(9e5).shear_spring()]],
+        shear: vec![vec![
+            cantilever(1.5e5).shear_spring(),
+            cantilever(9e5).shear_spring(),
+        ]],
         ..FrameHinges::default()
     }));
     let curve = pushed(&assembled(&alone(building)), 0.04);
@@ -570,7 +578,7 @@ fn condensed_equals_monolithic_while_columns_fail() {
     let failed = system
         .buildings
         .iter()
-        .flat_map(|own| &own.discretization.spring_places)
+        .flat_map(|building| &building.discretization.spring_places)
         .enumerate()
         .filter(|(index, place)| {
             let mut events = outcome.spring_events.iter();

@@ -39,9 +39,9 @@ fn gapping(strength: f64) -> [Hysteresis; 2] {
         ductility_damage: 0.0,
         energy_damage: 0.0,
     };
-    let own = Hysteresis::new(HysteresisRule::Pinched(pinching), backbone).expect("it fits");
-    let own = own.in_compression().expect("pinched");
-    [own, own.mirrored()]
+    let hysteresis = Hysteresis::new(HysteresisRule::Pinched(pinching), backbone).expect("it fits");
+    let compression = hysteresis.in_compression().expect("pinched");
+    [compression, compression.mirrored()]
 }
 
 fn shaken(links: Vec<Link>) -> Outcome {
@@ -69,8 +69,9 @@ fn shaken(links: Vec<Link>) -> Outcome {
 /// Elastic soil that cannot pull, on both sides, is one linear spring.
 #[test]
 fn both_sides_together_are_a_linear_spring() {
-    let own = Hysteresis::without_tension(SOIL).expect("sound");
-    let sides = [own, own.mirrored()].map(|own| link(LinkLaw::Yielding(own), 0.0, 0.0));
+    let without_tension = Hysteresis::without_tension(SOIL).expect("sound");
+    let sides = [without_tension, without_tension.mirrored()]
+        .map(|hysteresis| link(LinkLaw::Yielding(hysteresis), 0.0, 0.0));
     let [two, one] = [sides.to_vec(), vec![link(LinkLaw::Linear, SOIL, 0.0)]]
         .map(|links| column(&shaken(links), Column::displacement(0, 1)));
     let scale = largest(&one);
@@ -126,7 +127,7 @@ fn a_gap_is_crossed_without_force() {
 fn gaps_follow_an_integration_of_their_own() {
     let dashpot = 0.4e6;
     let mut links: Vec<Link> = gapping(STRENGTH)
-        .map(|own| link(LinkLaw::Yielding(own), 0.0, 0.0))
+        .map(|gapping| link(LinkLaw::Yielding(gapping), 0.0, 0.0))
         .to_vec();
     links.push(link(LinkLaw::Linear, 0.0, dashpot));
     let outcome = shaken(links);
@@ -164,7 +165,7 @@ fn hinges_at_feet_are_not_the_base() {
     let corners = Corners::bilinear(150e3, 0.02);
     let hinge = Backbone::from_forces(4e9, corners, corners)
         .and_then(|backbone| Hysteresis::new(HysteresisRule::Bilinear, backbone));
-    let own = frame(1, &[5.0]);
+    let frame = frame(1, &[5.0]);
     let hinges = FrameHinges {
         columns: vec![vec![hinge.expect("sound"); 2]],
         ..FrameHinges::default()
@@ -176,7 +177,7 @@ fn hinges_at_feet_are_not_the_base() {
                 alpha: 0.2,
                 beta: 0.0,
             },
-            ..framed("A", own)
+            ..framed("A", frame)
         }],
         links: vec![link(LinkLaw::Linear, 2e6, 0.0)],
         ..Model::default()

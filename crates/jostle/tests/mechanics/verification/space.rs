@@ -87,7 +87,8 @@ fn faces_rebound_by_the_momentum_law_as_in_the_plane() {
 /// Without eccentricity and across no shaking, everything is as in one plane, and nothing moves across or turns.
 pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
     let [left, right] = [[150e3, 90e6], [110e3, 200e6]];
-    let shear = |storeys: usize, own: [f64; 2]| Structure::Shear(equal_storeys(storeys, own));
+    let shear =
+        |storeys: usize, properties: [f64; 2]| Structure::Shear(equal_storeys(storeys, properties));
     let plane = model(
         vec![
             building("A", shear(5, left)),
@@ -104,10 +105,10 @@ pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
     );
     let (_, flat) = run(&plane, motion);
     let (system, outcome) = run(&space, motion);
-    let [own, other] = [&outcome, &flat].map(|run| run.energy.ground);
-    close(own, other, other.abs().max(1.0), 1e-9, "work of grounds");
+    let [ground, other] = [&outcome, &flat].map(|run| run.energy.ground);
+    close(ground, other, other.abs().max(1.0), 1e-9, "work of grounds");
     assert!(flat.impacts.len() > 4, "{} impacts", flat.impacts.len());
-    for (index, (own, other)) in outcome
+    for (index, (building, other)) in outcome
         .peaks
         .buildings()
         .zip(flat.peaks.buildings())
@@ -117,7 +118,7 @@ pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
             .iter()
             .map(|floor| floor.displacement_max().value)
             .fold(0.0, f64::max);
-        for (a, b) in own.iter().zip(&other) {
+        for (a, b) in building.iter().zip(&other) {
             let (a_max, b_max) = (a.displacement_max().value, b.displacement_max().value);
             close(a_max, b_max, scale, 1e-9, "right");
             close(
@@ -149,7 +150,7 @@ pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
             1e-9,
             "base shear",
         );
-        for floor in own {
+        for floor in building {
             for other in [floor.turning(), floor.across()] {
                 assert!(other.displacement_max().value.abs() < 1e-12 * scale);
             }
@@ -160,11 +161,12 @@ pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
     let face = strongest(&mut outcome.face_impacts.iter().map(|i| i.peak_force.value));
     let contact = strongest(&mut flat.impacts.iter().map(|i| i.peak_force));
     close(face, contact, contact, 1e-9, "force");
-    let impulse = |impacts: &[jostle::Impact]| impacts.iter().map(|own| own.impulse).sum::<f64>();
-    let [own, other] = [&outcome, &flat].map(|run| impulse(&run.impacts));
-    close(own, other, other, 1e-9, "impulse");
+    let impulse =
+        |impacts: &[jostle::Impact]| impacts.iter().map(|impact| impact.impulse).sum::<f64>();
+    let [impulse, other] = [&outcome, &flat].map(|run| impulse(&run.impacts));
+    close(impulse, other, other, 1e-9, "impulse");
     let instants = |impacts: &[jostle::Impact]| {
-        let mut starts: Vec<f64> = impacts.iter().map(|own| own.start).collect();
+        let mut starts: Vec<f64> = impacts.iter().map(|impact| impact.start).collect();
         starts.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
         starts.len()
     };
@@ -200,8 +202,8 @@ fn numbers(outcome: &Outcome) -> (Vec<f64>, Vec<f64>) {
     let mut forces: Vec<f64> = faces.map(|impact| impact.peak_force.value).collect();
     forces.sort_by(f64::total_cmp);
     let corners = outcome.peaks.buildings().map(|floors| {
-        let own = floors.iter().map(PeaksOf::corner_displacement);
-        own.fold(0.0, f64::max)
+        let corner_displacement = floors.iter().map(PeaksOf::corner_displacement);
+        corner_displacement.fold(0.0, f64::max)
     });
     (forces, corners.collect())
 }
@@ -211,11 +213,11 @@ pub(crate) fn same(a: &Outcome, b: &Outcome, order: [usize; 3], what: &str) {
     assert_eq!(forces.len(), other_forces.len(), "{what}: impacts");
     assert!(forces.len() > 10, "{} impacts", forces.len());
     let most = forces[forces.len() - 1];
-    for (own, other) in forces.iter().zip(&other_forces) {
-        close(*own, *other, most, 1e-8, what);
+    for (force, other) in forces.iter().zip(&other_forces) {
+        close(*force, *other, most, 1e-8, what);
     }
-    for (index, own) in corners.iter().enumerate() {
-        close(*own, other_corners[order[index]], *own, 1e-8, what);
+    for (index, corner) in corners.iter().enumerate() {
+        close(*corner, other_corners[order[index]], *corner, 1e-8, what);
     }
 }
 
@@ -263,9 +265,9 @@ fn a_turned_site_has_the_same_impacts() {
         let mut gaps = gaps.clone();
         gaps.iter_mut()
             .for_each(|gap| gap.in_plan.friction = friction);
-        let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+        let (_, original) = run(&model(buildings.clone(), gaps.clone()), &motion);
         let (_, other) = run(&model(turned.clone(), gaps), &turned_motion);
-        same(&own, &other, [0, 1, 2], "turned");
+        same(&original, &other, [0, 1, 2], "turned");
     }
 }
 
@@ -273,20 +275,20 @@ fn a_turned_site_has_the_same_impacts() {
 #[test]
 fn a_mirrored_site_has_the_same_impacts() {
     let (buildings, gaps, motion) = around_a_corner();
-    let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    let (_, original) = run(&model(buildings.clone(), gaps.clone()), &motion);
     let mirrored = changed(&buildings, |[x, y]| [x, -y], true, |k| k);
     let mut mirrored_motion = motion.clone();
     let bearing = mirrored_motion.bearing.as_mut().expect("a bearing");
     bearing.angle = -bearing.angle;
     bearing.across.as_mut().expect("a motion across").scale = -1.0;
     let (_, other) = run(&model(mirrored, gaps), &mirrored_motion);
-    same(&own, &other, [0, 1, 2], "mirrored");
+    same(&original, &other, [0, 1, 2], "mirrored");
 }
 
 #[test]
 fn the_order_of_buildings_does_not_matter() {
     let (buildings, gaps, motion) = around_a_corner();
-    let (_, own) = run(&model(buildings.clone(), gaps.clone()), &motion);
+    let (_, original) = run(&model(buildings.clone(), gaps.clone()), &motion);
     let shuffled = vec![
         buildings[2].clone(),
         buildings[0].clone(),
@@ -295,7 +297,7 @@ fn the_order_of_buildings_does_not_matter() {
     let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, CONCRETE);
     // The second named first as well: the normal turns round.
     let (_, other) = run(&model(shuffled, vec![gap(0, 1), gap(1, 2)]), &motion);
-    same(&own, &other, [1, 2, 0], "in another order");
+    same(&original, &other, [1, 2, 0], "in another order");
 }
 
 /// Friction takes energy, is bounded by μ times the contact force, and leaves nothing behind without a coefficient.
@@ -308,7 +310,11 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
     let (_, rough) = run(&model(buildings.clone(), gaps.clone()), &motion);
     assert!(rough.energy.friction > 1.0, "{}", rough.energy.friction);
     assert!(rough.energy.worst_imbalance < 1e-9);
-    let works: f64 = rough.impacts.iter().map(|own| own.sliding.friction).sum();
+    let works: f64 = rough
+        .impacts
+        .iter()
+        .map(|impact| impact.sliding.friction)
+        .sum();
     close(
         works,
         rough.energy.friction,
@@ -324,7 +330,7 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
     }
     let faces = rough.face_impacts.iter();
     let most = faces
-        .map(|own| own.peak_friction.value / own.peak_force.value)
+        .map(|face| face.peak_friction.value / face.peak_force.value)
         .fold(0.0, f64::max);
     assert!(most > 0.1 && most <= 0.3 * (1.0 + 1e-9), "{most}");
     let mut finer = model(buildings.clone(), gaps.clone());
@@ -335,7 +341,7 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
         let across = along().map(PeaksOf::across);
         along()
             .chain(across)
-            .map(|own| own.total_acceleration())
+            .map(|floor| floor.total_acceleration())
             .collect()
     };
     let (got, expected) = (accelerations(&rough), accelerations(&exact));
@@ -433,8 +439,8 @@ fn a_sine_across_shakes_across() {
             grounds: None,
         }),
     }));
-    let own = model(vec![tower], Vec::new());
-    let (_, outcome) = run(&own, &motion);
+    let tower_model = model(vec![tower], Vec::new());
+    let (_, outcome) = run(&tower_model, &motion);
     // As a building in one plane with the stiffness across.
     let plane = model(
         vec![building(
@@ -444,7 +450,7 @@ fn a_sine_across_shakes_across() {
         Vec::new(),
     );
     let mut plane = plane;
-    let (system, _) = run(&own, &motion);
+    let (system, _) = run(&tower_model, &motion);
     let equations = &system.buildings[0].equations;
     plane.buildings[0].damping = Damping::Rayleigh {
         alpha: equations.alpha,
@@ -515,12 +521,12 @@ fn plans_that_do_not_fit_are_refused() {
     wall[0].between = [Some(0), None];
     assert!(said(buildings.clone(), wall).contains("names a wall"));
     let on_site = |from: PlanPoint, to: PlanPoint| -> String {
-        let mut own = model(
+        let mut model = model(
             buildings.clone(),
             vec![Gap::between([Some(2), Some(3)], 0.02, CONCRETE)],
         );
-        own.walls = vec![super::space::wall("moat", from, to)];
-        match own.check() {
+        model.walls = vec![super::space::wall("moat", from, to)];
+        match model.check() {
             Ok(()) => String::new(),
             Err(faults) => faults.iter().map(ToString::to_string).collect(),
         }
@@ -556,9 +562,12 @@ fn wall(name: &str, from: PlanPoint, to: PlanPoint) -> Wall {
 /// A wall across the row is the wall of the plane.
 #[test]
 fn a_wall_on_the_site_is_that_of_the_plane() {
-    let own = [150e3, 90e6];
+    let properties = [150e3, 90e6];
     let mut plane = model(
-        vec![building("A", Structure::Shear(equal_storeys(4, own)))],
+        vec![building(
+            "A",
+            Structure::Shear(equal_storeys(4, properties)),
+        )],
         Vec::new(),
     );
     plane.gaps = vec![Gap::between([Some(0), None], 0.02, CONCRETE)];
@@ -566,7 +575,7 @@ fn a_wall_on_the_site_is_that_of_the_plane() {
         vec![tower(
             "A",
             4,
-            own,
+            properties,
             &rectangle(0.0, 0.0, 12.0, 10.0),
             [0.0; 2],
         )],
@@ -608,8 +617,8 @@ fn a_wall_on_the_site_is_that_of_the_plane() {
 #[test]
 fn walls_around_a_corner_are_neighbours_that_stand_still() {
     let square = rectangle(0.0, 0.0, 10.0, 10.0);
-    let mut own = tower("A", 3, [120e3, 70e6], &square, [0.0; 2]);
-    if let Structure::Tiers(tiers) = &mut own.structure {
+    let mut building = tower("A", 3, [120e3, 70e6], &square, [0.0; 2]);
+    if let Structure::Tiers(tiers) = &mut building.structure {
         for storey in &mut tiers.storeys {
             storey.stiffness[1] = storey.stiffness[0];
         }
@@ -620,7 +629,7 @@ fn walls_around_a_corner_are_neighbours_that_stand_still() {
         across: None,
     }));
     let mut corner = model(
-        vec![own.clone()],
+        vec![building.clone()],
         vec![
             Gap::between([Some(0), Some(1)], 0.02, CONCRETE),
             Gap::between([Some(2), Some(0)], 0.02, CONCRETE),
@@ -640,7 +649,7 @@ fn walls_around_a_corner_are_neighbours_that_stand_still() {
         .peaks
         .floors(0)
         .iter()
-        .map(|own| (own, own.across()))
+        .map(|floor| (floor, floor.across()))
     {
         let scale = a.displacement_max().value;
         close(

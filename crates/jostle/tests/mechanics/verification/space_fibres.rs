@@ -66,7 +66,7 @@ fn fibres(counts: [usize; 2], leans: bool) -> ColumnFibres {
 }
 
 /// Columns at all crossings, and beams between them if asked for.
-fn frame(lines: [&[f64]; 2], storeys: usize, beams: bool, own: &ColumnFibres) -> SpaceFrame {
+fn frame(lines: [&[f64]; 2], storeys: usize, beams: bool, fibres: &ColumnFibres) -> SpaceFrame {
     let column = SpaceSection::rectangle(SIZE, 30e9, 0.2, false).expect("a section");
     let beam = SpaceSection::beam([0.3, 0.5], 30e9, 0.2, false).expect("a section");
     let mut frame = SpaceFrame {
@@ -82,7 +82,7 @@ fn frame(lines: [&[f64]; 2], storeys: usize, beams: bool, own: &ColumnFibres) ->
                     storey,
                 };
                 frame.members.push(SpaceMember::elastic(place, column));
-                frame.fibres.insert(place, own.clone());
+                frame.fibres.insert(place, fibres.clone());
                 if beams && x + 1 < lines[0].len() {
                     let place = SpacePlace::BeamX {
                         span: x,
@@ -204,7 +204,7 @@ fn moved((system, outcome): &(System, Outcome)) -> Vec<Vec<[f64; 2]>> {
     };
     let sections = sections.iter().enumerate();
     sections
-        .map(|(section, own)| of(section, own.rotations.len()))
+        .map(|(section, fibre_section)| of(section, fibre_section.rotations.len()))
         .collect()
 }
 
@@ -218,8 +218,8 @@ fn extremes(floor: &PeaksOf<'_>) -> [f64; 2] {
 
 /// Compares two extremes by the greater of them.
 fn agree(got: &[f64; 2], expected: &[f64; 2], tolerance: f64, what: &str) {
-    for (got, own) in got.iter().zip(expected) {
-        close(*got, *own, largest(expected), tolerance, what);
+    for (got, wanted) in got.iter().zip(expected) {
+        close(*got, *wanted, largest(expected), tolerance, what);
     }
 }
 
@@ -237,13 +237,13 @@ struct Cantilever {
 }
 
 impl Cantilever {
-    fn new(own: &ColumnFibres) -> Self {
+    fn new(fibres: &ColumnFibres) -> Self {
         let section = SpaceSection::rectangle(SIZE, 30e9, 0.2, false).expect("a section");
         let [x, y] = section.flexural_rigidity;
         let axial = section.axial_rigidity.expect("it stretches");
         Self {
-            fibres: own.fibres.to_vec(),
-            memories: vec![HysteresisMemory::default(); own.fibres.len()],
+            fibres: fibres.fibres.to_vec(),
+            memories: vec![HysteresisMemory::default(); fibres.fibres.len()],
             stiff: [
                 axial / HEIGHT,
                 3.0 * x / HEIGHT.powi(2),
@@ -267,16 +267,16 @@ impl Cantilever {
             let mut matrix = [[0.0; 7]; 6];
             let mut forces = [0.0; 3];
             for (fibre, memory) in self.fibres.iter().zip(&self.memories) {
-                let own = fibre.spring.respond(memory, self.stretch(fibre));
+                let response = fibre.spring.respond(memory, self.stretch(fibre));
                 // Where it does not move, its slope is that of the crack that is still closed.
-                let slope = if own.force == 0.0 && memory.deformation() == 0.0 {
+                let slope = if response.force == 0.0 && memory.deformation() == 0.0 {
                     fibre.spring.initial_tangent()
                 } else {
-                    own.tangent
+                    response.tangent
                 };
                 let arms = [1.0, fibre.at[0], fibre.at[1]];
                 for (row, arm) in arms.into_iter().enumerate() {
-                    forces[row] += arm * own.force;
+                    forces[row] += arm * response.force;
                     for (column, other) in arms.into_iter().enumerate() {
                         matrix[3 + row][3 + column] += arm * other * slope;
                     }
@@ -298,8 +298,8 @@ impl Cantilever {
             }
             self.forces = forces;
             let step = solved(matrix);
-            for (own, step) in self.moved.iter_mut().zip(step) {
-                *own += step;
+            for (displacement, step) in self.moved.iter_mut().zip(step) {
+                *displacement += step;
             }
             if largest(&step) < 1e-14 {
                 return;
@@ -309,7 +309,11 @@ impl Cantilever {
     }
 
     fn accept(&mut self) {
-        let stretches: Vec<f64> = self.fibres.iter().map(|own| self.stretch(own)).collect();
+        let stretches: Vec<f64> = self
+            .fibres
+            .iter()
+            .map(|fibre| self.stretch(fibre))
+            .collect();
         let fibres = self.fibres.iter().zip(&mut self.memories);
         for ((fibre, memory), stretch) in fibres.zip(stretches) {
             *memory = fibre.spring.respond(memory, stretch).memory;
@@ -324,10 +328,11 @@ fn solved(mut matrix: [[f64; 7]; 6]) -> [f64; 6] {
         let best = (pivot..6).max_by(|a, b| size(a).total_cmp(&size(b)));
         matrix.swap(pivot, best.expect("rows are left"));
         let leading = matrix[pivot];
-        for (row, own) in matrix.iter_mut().enumerate() {
+        for (row, matrix) in matrix.iter_mut().enumerate() {
             if row != pivot {
-                let factor = own[pivot] / leading[pivot];
-                own.iter_mut()
+                let factor = matrix[pivot] / leading[pivot];
+                matrix
+                    .iter_mut()
                     .zip(leading)
                     .for_each(|(a, b)| *a -= factor * b);
             }
@@ -339,16 +344,16 @@ fn solved(mut matrix: [[f64; 7]; 6]) -> [f64; 6] {
 /// Two cantilevers under one floor, shaken from two sides, are one of half the mass that steps by the rule of average acceleration.
 #[test]
 fn a_cantilever_is_what_newtons_method_finds_over_its_fibres() {
-    let own = fibres([16, 12], true);
+    let column_fibres = fibres([16, 12], true);
     let (mass, load, step) = (60e3, 150e3, 1e-3);
-    let mut pair = frame([&[0.0, 6.0], &[0.0]], 1, false, &own);
+    let mut pair = frame([&[0.0, 6.0], &[0.0]], 1, false, &column_fibres);
     pair.floor_load = vec![2.0 * load];
     let motion = motion([0.8, 0.6], 0.0);
     let ran = shaken(building(pair, 1, 2.0 * mass, 0.0), &motion, Solver::Riccati);
     let [crushed, yielded] = reached(&ran);
     assert!(crushed > 20 && yielded > 5, "{crushed} and {yielded}");
 
-    let mut alone = Cantilever::new(&own);
+    let mut alone = Cantilever::new(&column_fibres);
     let weight = [-mass * STANDARD_GRAVITY - load, 0.0, 0.0];
     alone.solve([0.0; 3], weight);
     alone.accept();
@@ -358,13 +363,13 @@ fn a_cantilever_is_what_newtons_method_finds_over_its_fibres() {
         let across = across.expect("two sides").acceleration(t);
         [0.0, motion.acceleration(t), across]
     };
-    let mut acceleration = ground(0.0).map(|own| -own);
+    let mut acceleration = ground(0.0).map(|ground| -ground);
     let count = (motion.duration / step).round() as usize;
-    let now = |own: &Cantilever| -> Vec<f64> {
-        let moved = own.moved[3..].iter().copied();
-        own.forces.into_iter().chain(moved).collect()
+    let now = |cantilever: &Cantilever| -> Vec<f64> {
+        let moved = cantilever.moved[3..].iter().copied();
+        cantilever.forces.into_iter().chain(moved).collect()
     };
-    let mut extremes: Vec<[f64; 2]> = now(&alone).into_iter().map(|own| [own; 2]).collect();
+    let mut extremes: Vec<[f64; 2]> = now(&alone).into_iter().map(|value| [value; 2]).collect();
     let mut tops = vec![alone.moved];
     for number in 1..=count {
         let pushed = ground(number as f64 * step);
@@ -393,7 +398,7 @@ fn a_cantilever_is_what_newtons_method_finds_over_its_fibres() {
     ];
     for (axis, place) in directions.into_iter().enumerate() {
         let got = column(&ran.1, place);
-        let expected: Vec<f64> = tops.iter().map(|own| own[1 + axis]).collect();
+        let expected: Vec<f64> = tops.iter().map(|top| top[1 + axis]).collect();
         assert_eq!(got.len(), expected.len());
         let apart = difference(&got, &expected);
         assert!(apart < 1e-8, "{apart:e} along {axis}");
@@ -411,7 +416,7 @@ fn a_cantilever_is_what_newtons_method_finds_over_its_fibres() {
         let memories = &ran.1.state.springs[discretization.springs_of_section(section)];
         let got: Vec<f64> = memories.iter().map(HysteresisMemory::deformation).collect();
         let fibres = alone.fibres.iter();
-        let expected: Vec<f64> = fibres.map(|own| alone.stretch(own)).collect();
+        let expected: Vec<f64> = fibres.map(|fibre| alone.stretch(fibre)).collect();
         let apart = difference(&got, &expected);
         assert!(apart < 1e-8, "{apart:e}");
     }
@@ -420,13 +425,13 @@ fn a_cantilever_is_what_newtons_method_finds_over_its_fibres() {
 /// Shaken along x, a symmetric frame is a plane one whose rows of fibres are as far from the axis: its layers and rows of bars.
 #[test]
 fn in_one_plane_it_is_a_plane_frame_of_layers() {
-    let both_ends = |own: ColumnFibres| ColumnFibres {
+    let both_ends = |fibres: ColumnFibres| ColumnFibres {
         at_ends: [true, true],
-        ..own
+        ..fibres
     };
-    let own = both_ends(fibres([12, 4], false));
+    let ends = both_ends(fibres([12, 4], false));
     let motion = fading("along", 9.0, [0.8, 3.0], 150);
-    let space = frame([&[0.0, 6.0, 10.5], &[0.0]], 2, true, &own);
+    let space = frame([&[0.0, 6.0, 10.5], &[0.0]], 2, true, &ends);
     let column = space.members[0].section;
     let beam = space.members[1].section;
     let of_plane = |section: &SpaceSection| Section {
@@ -437,12 +442,12 @@ fn in_one_plane_it_is_a_plane_frame_of_layers() {
     };
     // One spring for all fibres of a row.
     let mut rows: Vec<Fibre> = Vec::new();
-    for fibre in own.fibres.iter() {
+    for fibre in ends.fibres.iter() {
         let curve = fibre
             .spring
             .backbone()
             .side(jostle::hysteresis::Side::Negative);
-        let count = own.fibres.iter().filter(|other| {
+        let count = ends.fibres.iter().filter(|other| {
             other.at[0] == fibre.at[0] && other.spring.rule() == fibre.spring.rule()
         });
         let count = count.count() as f64;
@@ -473,7 +478,7 @@ fn in_one_plane_it_is_a_plane_frame_of_layers() {
     assert_eq!(rows.len(), 12 + 3);
     let layers = both_ends(ColumnFibres {
         fibres: rows.into(),
-        ..own.clone()
+        ..ends.clone()
     });
     let mass = 90e3;
     let plane = Frame {
@@ -505,17 +510,17 @@ fn in_one_plane_it_is_a_plane_frame_of_layers() {
     let plane = shaken(plane, &motion, Solver::Riccati);
     let [crushed, yielded] = reached(&plane);
     assert!(crushed > 5 && yielded > 5, "{crushed} and {yielded}");
-    for (own, other) in space.1.peaks.floors(0).iter().zip(plane.1.peaks.floors(0)) {
-        agree(&extremes(own), &extremes(&other), 1e-9, "floors");
-        for still in [own.across(), own.turning()] {
+    for (floor, other) in space.1.peaks.floors(0).iter().zip(plane.1.peaks.floors(0)) {
+        agree(&extremes(floor), &extremes(&other), 1e-9, "floors");
+        for still in [floor.across(), floor.turning()] {
             assert!(largest(&extremes(&still)) < 1e-11);
         }
     }
     let [a, b] = [&space, &plane].map(|ran| (forces(ran), moved(ran)));
     assert_eq!(a.0.len(), b.0.len());
     for section in 0..a.0.len() {
-        for (own, other) in [(&a.0, &b.0), (&a.1, &b.1)] {
-            for (got, expected) in own[section].iter().zip(&other[section]) {
+        for (one, other) in [(&a.0, &b.0), (&a.1, &b.1)] {
+            for (got, expected) in one[section].iter().zip(&other[section]) {
                 agree(got, expected, 1e-9, "section");
             }
         }
@@ -524,51 +529,56 @@ fn in_one_plane_it_is_a_plane_frame_of_layers() {
 }
 
 /// Two storeys with beams, of columns that lean.
-fn two_storeys(own: &ColumnFibres) -> SpaceFrame {
-    let own = ColumnFibres {
+fn two_storeys(fibres: &ColumnFibres) -> SpaceFrame {
+    let fibres = ColumnFibres {
         at_ends: [true, true],
-        ..own.clone()
+        ..fibres.clone()
     };
-    frame([&[0.0, 5.0], &[0.0, 4.0]], 2, true, &own)
+    frame([&[0.0, 5.0], &[0.0, 4.0]], 2, true, &fibres)
 }
 
 /// Riccati's recursion and the stiffness matrix share nothing but the elements.
 #[test]
 fn both_solvers_agree_while_bars_yield_and_concrete_crushes() {
-    let own = two_storeys(&fibres([6, 5], true));
+    let two_storeys = two_storeys(&fibres([6, 5], true));
     let motion = motion([0.9, 0.7], 0.4);
-    let [a, b] = [Solver::Riccati, Solver::Stiffness]
-        .map(|solver| shaken(building(own.clone(), 2, 160e3, 1e-3), &motion, solver));
+    let [a, b] = [Solver::Riccati, Solver::Stiffness].map(|solver| {
+        shaken(
+            building(two_storeys.clone(), 2, 160e3, 1e-3),
+            &motion,
+            solver,
+        )
+    });
     let [crushed, yielded] = reached(&a);
     assert!(crushed > 20 && yielded > 20, "{crushed} and {yielded}");
-    for (own, other) in a.1.peaks.floors(0).iter().zip(b.1.peaks.floors(0)) {
-        agree(&extremes(own), &extremes(&other), 1e-6, "floors");
+    for (floor, other) in a.1.peaks.floors(0).iter().zip(b.1.peaks.floors(0)) {
+        agree(&extremes(floor), &extremes(&other), 1e-6, "floors");
         agree(
-            &extremes(&own.across()),
+            &extremes(&floor.across()),
             &extremes(&other.across()),
             1e-6,
             "across",
         );
     }
-    for (own, other) in forces(&a).concat().iter().zip(forces(&b).concat()) {
-        close(own[0], other[0], largest(&other), 1e-6, "forces");
-        close(own[1], other[1], largest(&other), 1e-6, "forces");
+    for (concat, other) in forces(&a).concat().iter().zip(forces(&b).concat()) {
+        close(concat[0], other[0], largest(&other), 1e-6, "forces");
+        close(concat[1], other[1], largest(&other), 1e-6, "forces");
     }
 }
 
 /// A site that is turned about a vertical axis with all that stands on it, and with the motion, changes nothing.
 #[test]
 fn a_turned_site_gives_equal_numbers() {
-    let own = two_storeys(&fibres([6, 5], true));
+    let two_storeys = two_storeys(&fibres([6, 5], true));
     let straight = shaken(
-        building(own.clone(), 2, 160e3, 1e-3),
+        building(two_storeys.clone(), 2, 160e3, 1e-3),
         &motion([0.9, 0.7], 0.0),
         Solver::Riccati,
     );
     for angle in [PI / 6.0, FRAC_PI_2] {
         let turned = SpaceFrame {
             direction: [angle.cos(), angle.sin()],
-            ..own.clone()
+            ..two_storeys.clone()
         };
         let turned = shaken(
             building(turned, 2, 160e3, 1e-3),
@@ -590,15 +600,15 @@ fn a_turned_site_gives_equal_numbers() {
 #[test]
 fn a_quarter_turn_exchanges_both_planes() {
     let upright = fibres([6, 5], true);
-    let own = two_storeys(&upright);
+    let two_storeys = two_storeys(&upright);
     // (x, y) becomes (−y, x); a line at y stands at 4 − y so that lines rise.
     let lying = ColumnFibres {
         fibres: upright
             .fibres
             .iter()
-            .map(|own| Fibre {
-                at: [-own.at[1], own.at[0]],
-                ..*own
+            .map(|fibre| Fibre {
+                at: [-fibre.at[1], fibre.at[0]],
+                ..*fibre
             })
             .collect(),
         at_ends: [true, true],
@@ -612,7 +622,7 @@ fn a_quarter_turn_exchanges_both_planes() {
         }
     }
     let straight = shaken(
-        building(own, 2, 160e3, 1e-3),
+        building(two_storeys, 2, 160e3, 1e-3),
         &motion([0.9, 0.7], 0.0),
         Solver::Riccati,
     );
@@ -641,13 +651,13 @@ fn a_quarter_turn_exchanges_both_planes() {
         let other = format!("column.{line}.{}.{}.{}", parts[1], parts[3], parts[4]);
         let place = after
             .iter()
-            .position(|own| *own == other)
+            .position(|candidate| *candidate == other)
             .expect("it stands there");
-        for (own, image) in [(&a.0[index], &b.0[place]), (&a.1[index], &b.1[place])] {
-            agree(&image[0], &own[0], 1e-7, "axial");
+        for (original, image) in [(&a.0[index], &b.0[place]), (&a.1[index], &b.1[place])] {
+            agree(&image[0], &original[0], 1e-7, "axial");
             // Along x before is along y now; along y before is against x now.
-            agree(&image[2], &own[1], 1e-7, "across");
-            agree(&[-image[1][1], -image[1][0]], &own[2], 1e-7, "along");
+            agree(&image[2], &original[1], 1e-7, "across");
+            agree(&[-image[1][1], -image[1][0]], &original[2], 1e-7, "along");
         }
     }
 }
@@ -656,9 +666,9 @@ fn a_quarter_turn_exchanges_both_planes() {
 #[test]
 fn fibres_that_cannot_be_say_why() {
     let says = |change: &dyn Fn(&mut SpaceFrame), gravity: bool, words: &str| {
-        let mut own = two_storeys(&fibres([4, 4], false));
-        change(&mut own);
-        let mut building = building(own, 2, 160e3, 0.0);
+        let mut two_storeys = two_storeys(&fibres([4, 4], false));
+        change(&mut two_storeys);
+        let mut building = building(two_storeys, 2, 160e3, 0.0);
         building.gravity.preload = gravity;
         let model = Model {
             buildings: vec![building],
@@ -669,29 +679,29 @@ fn fibres_that_cannot_be_say_why() {
         assert!(found && faults.len() == 1, "{words}: {faults:?}");
     };
     says(&|_| {}, false, "add gravity = true");
-    let rigid = |own: &mut SpaceFrame| {
-        own.members[0].section.axial_rigidity = None;
+    let rigid = |frame: &mut SpaceFrame| {
+        frame.members[0].section.axial_rigidity = None;
     };
     says(&rigid, true, "take axial = \"flexible\"");
     let place = SpacePlace::Column {
         line: [0, 0],
         storey: 0,
     };
-    let on_a_line = |own: &mut SpaceFrame| {
-        let column = own.fibres.get_mut(&place).expect("it has fibres");
+    let on_a_line = |frame: &mut SpaceFrame| {
+        let column = frame.fibres.get_mut(&place).expect("it has fibres");
         column.fibres = column
             .fibres
             .iter()
-            .map(|own| Fibre {
-                at: [own.at[0], 0.1],
-                ..*own
+            .map(|fibre| Fibre {
+                at: [fibre.at[0], 0.1],
+                ..*fibre
             })
             .collect();
     };
     says(&on_a_line, true, "stand on one line");
-    let nowhere = |own: &mut SpaceFrame| {
-        let column = own.fibres[&place].clone();
-        own.fibres.insert(
+    let nowhere = |frame: &mut SpaceFrame| {
+        let column = frame.fibres[&place].clone();
+        frame.fibres.insert(
             SpacePlace::BeamX {
                 span: 0,
                 line: 0,
@@ -701,10 +711,10 @@ fn fibres_that_cannot_be_say_why() {
         );
     };
     says(&nowhere, true, "no column");
-    let hinged = |own: &mut SpaceFrame| {
-        own.members[0].hinges[0] = Some(Hysteresis::elastic(1e8).expect("sound"));
+    let hinged = |frame: &mut SpaceFrame| {
+        frame.members[0].hinges[0] = Some(Hysteresis::elastic(1e8).expect("sound"));
     };
     says(&hinged, true, "both hinges and fibres");
-    let loaded = |own: &mut SpaceFrame| own.floor_load = vec![0.0];
+    let loaded = |frame: &mut SpaceFrame| frame.floor_load = vec![0.0];
     says(&loaded, true, "1 entries for 2 storeys");
 }

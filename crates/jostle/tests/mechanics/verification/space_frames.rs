@@ -30,11 +30,11 @@ const FULLY: Flexible = Flexible {
 };
 
 fn column(size: [f64; 2], flexible: Flexible) -> SpaceSection {
-    let mut own = SpaceSection::rectangle(size, E, NU, flexible.shear).expect("a section");
+    let mut rectangle = SpaceSection::rectangle(size, E, NU, flexible.shear).expect("a section");
     if !flexible.axial {
-        own.axial_rigidity = None;
+        rectangle.axial_rigidity = None;
     }
-    own
+    rectangle
 }
 
 fn beam(size: [f64; 2], flexible: Flexible) -> SpaceSection {
@@ -163,33 +163,33 @@ fn single(tiers: Tiers) -> System {
 }
 
 /// Displacements of the floors, u_x, u_y, θ each, under forces on them.
-fn statics(own: &BuildingSystem, pushes: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let n = own.floors.len();
-    let mut load = vec![0.0; own.equations.len()];
+fn statics(system: &BuildingSystem, pushes: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let n = system.floors.len();
+    let mut load = vec![0.0; system.equations.len()];
     for (floor, push) in pushes.iter().enumerate() {
         for (direction, force) in push.iter().enumerate() {
-            load[own.tracks[direction * n + floor].dof] = *force;
+            load[system.tracks[direction * n + floor].dof] = *force;
         }
     }
-    let answer = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
+    let answer = solve_once::<RiccatiSweep>(system, &StepMatrix::STATIC, &load).expect("it stands");
     (0..n)
-        .map(|floor| [0, 1, 2].map(|direction| answer[own.tracks[direction * n + floor].dof]))
+        .map(|floor| [0, 1, 2].map(|direction| answer[system.tracks[direction * n + floor].dof]))
         .collect()
 }
 
 /// Forces at both ends of every member: axial, shear and moment, then shear and moment across and torque.
 fn end_forces(system: &System, floors: &[[f64; 3]]) -> Vec<(SpacePlace, [[f64; 6]; 2])> {
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let n = floors.len();
     let mut state = State::at_rest(system, 0.0);
     for (floor, moved) in floors.iter().enumerate() {
         for (direction, value) in moved.iter().enumerate() {
-            state.displacement[own.tracks[direction * n + floor].dof] = *value;
+            state.displacement[building.tracks[direction * n + floor].dof] = *value;
         }
     }
-    let mut forces = vec![0.0; own.members.forms.len()];
-    own.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
-    let members = own.members.members.iter();
+    let mut forces = vec![0.0; building.members.forms.len()];
+    building.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
+    let members = building.members.members.iter();
     members
         .map(|member| {
             let MemberPlace::InSpace(place) = member.place else {
@@ -217,7 +217,7 @@ fn columns_without_beams_are_cantilevers() {
     for shear in [false, true] {
         let flexible = Flexible { axial: true, shear };
         let mut frame = grid(&[0.0, 6.0], &[0.0, 5.0], 1, flexible);
-        let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+        let is_column = |member: &SpaceMember| matches!(member.place, SpacePlace::Column { .. });
         frame.members.retain(is_column);
         let section = frame.members[0].section;
         let plan = vec![[0.0, 0.0], [6.0, 0.0], [6.0, 5.0], [0.0, 5.0]];
@@ -229,7 +229,9 @@ fn columns_without_beams_are_cantilevers() {
         });
         let [kx, ky] = [0, 1].map(|plane| {
             let bent = h.powi(3) / (3.0 * section.flexural_rigidity[plane]);
-            let sheared = section.shear_rigidity.map_or(0.0, |own| h / own[plane]);
+            let sheared = section
+                .shear_rigidity
+                .map_or(0.0, |shear_rigidity| h / shear_rigidity[plane]);
             1.0 / (bent + sheared)
         });
         let torsion = 4.0 * (kx * 2.5 * 2.5 + ky * 3.0 * 3.0 + section.torsional_rigidity / h);
@@ -283,7 +285,7 @@ fn a_pair_of_frames_is_its_plane_limit() {
             space_frame,
             ..Tiers::default()
         };
-        let own = |section: SpaceSection| Section {
+        let section_of = |section: SpaceSection| Section {
             flexural_rigidity: section.flexural_rigidity[0],
             axial_rigidity: section.axial_rigidity.or(Some(1e9)),
             shear_rigidity: section.shear_rigidity.map(|both| both[0]),
@@ -292,8 +294,8 @@ fn a_pair_of_frames_is_its_plane_limit() {
         let plane = Frame {
             storey_heights: heights.to_vec(),
             spans: vec![6.0, 5.0],
-            columns: vec![own(column([0.5, 0.4], flexible)); 3],
-            beams: vec![own(beam([0.3, 0.6], flexible)); 3],
+            columns: vec![section_of(column([0.5, 0.4], flexible)); 3],
+            beams: vec![section_of(beam([0.3, 0.6], flexible)); 3],
             beam_mass: vec![0.0; 3],
             floor_mass: vec![0.0; 3],
             column_segments: 1,
@@ -324,19 +326,25 @@ fn a_pair_of_frames_is_its_plane_limit() {
             close(a[2], 0.0, b[0].abs(), 1e-11, "rotation");
         }
         // Forces of the first plane frame, and of the members on the first line.
-        let own = &of_plane.buildings[0];
-        let mut load = vec![0.0; own.equations.len()];
+        let building = &of_plane.buildings[0];
+        let mut load = vec![0.0; building.equations.len()];
         for (floor, push) in pushes.iter().enumerate() {
-            load[own.tracks[floor].dof] = push[0];
+            load[building.tracks[floor].dof] = push[0];
         }
-        let answer = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("stands");
+        let answer =
+            solve_once::<RiccatiSweep>(building, &StepMatrix::STATIC, &load).expect("stands");
         let mut state = State::at_rest(&of_plane, 0.0);
         state.displacement.copy_from_slice(&answer);
-        let mut forces = vec![0.0; own.members.forms.len()];
-        own.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
+        let mut forces = vec![0.0; building.members.forms.len()];
+        building.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
         let in_space = end_forces(&of_space, &a);
         let mut compared = 0;
-        for member in own.members.members.iter().filter(|m| m.frame == Some(0)) {
+        for member in building
+            .members
+            .members
+            .iter()
+            .filter(|m| m.frame == Some(0))
+        {
             let wanted = match member.place {
                 MemberPlace::Column { line, storey } => SpacePlace::Column {
                     line: [line - 1, 0],
@@ -437,10 +445,14 @@ fn columns_of_a_storey_carry_what_is_above() {
             let mut sum = [0.0; 5];
             let mut vertical = 0.0;
             for (place, ends) in &members {
-                let SpacePlace::Column { line, storey: own } = place else {
+                let SpacePlace::Column {
+                    line,
+                    storey: place,
+                } = place
+                else {
                     continue;
                 };
-                if *own != storey {
+                if *place != storey {
                     continue;
                 }
                 let [x, y] = frame.point(*line);
@@ -502,8 +514,8 @@ fn a_turned_site_gives_turned_displacements() {
         }
         // Members have the same forces in the axes of their lines.
         let same = single(tiers.clone());
-        let (own, other) = (end_forces(&system, &after), end_forces(&same, &before));
-        for ((_, a), (_, b)) in own.iter().zip(&other) {
+        let (one, other) = (end_forces(&system, &after), end_forces(&same, &before));
+        for ((_, a), (_, b)) in one.iter().zip(&other) {
             for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
                 close(*a, *b, 3e5, 1e-9, "forces of members");
             }
@@ -561,28 +573,30 @@ fn a_mirrored_frame_gives_mirrored_displacements() {
 fn weight_softens_every_storey() {
     let tiers = without_symmetry(FULLY);
     let plain = single(tiers.clone());
-    let mut own = building("A", tiers.clone(), FIVE_PERCENT);
-    own.gravity.p_delta = true;
-    let leaning = assembled(&model(vec![own], vec![]));
+    let mut building = building("A", tiers.clone(), FIVE_PERCENT);
+    building.gravity.p_delta = true;
+    let leaning = assembled(&model(vec![building], vec![]));
     let moved = [
         [0.01, -0.02, 1e-3],
         [0.03, 0.01, -2e-3],
         [0.05, -0.04, 3e-3],
     ];
     let force = |system: &System| {
-        let own = &system.buildings[0];
+        let building = &system.buildings[0];
         let n = moved.len();
-        let mut displacement = vec![0.0; own.equations.len()];
+        let mut displacement = vec![0.0; building.equations.len()];
         for (floor, moved) in moved.iter().enumerate() {
             for (direction, value) in moved.iter().enumerate() {
-                displacement[own.tracks[direction * n + floor].dof] = *value;
+                displacement[building.tracks[direction * n + floor].dof] = *value;
             }
         }
         let mut force = vec![0.0; displacement.len()];
-        own.equations
+        building
+            .equations
             .stiffness
             .multiply_add(&displacement, &mut force);
-        own.equations
+        building
+            .equations
             .undamped
             .multiply_add(&displacement, &mut force);
         let energy: f64 = force.iter().zip(&displacement).map(|(f, u)| f * u).sum();
@@ -596,8 +610,8 @@ fn weight_softens_every_storey() {
             [0, 1].map(|axis| above.iter().map(|f| f.mass * f.centre[axis]).sum::<f64>() / mass);
         let at = |floor: usize| {
             let [x, y, turn] = moved[floor];
-            let own = tiers.floors[floor].centre;
-            let arm = [centre[0] - own[0], centre[1] - own[1]];
+            let floor_centre = tiers.floors[floor].centre;
+            let arm = [centre[0] - floor_centre[0], centre[1] - floor_centre[1]];
             [x - turn * arm[1], y + turn * arm[0], turn]
         };
         let upper = at(storey);
@@ -655,18 +669,24 @@ fn pounding_pair(tolerance: f64) -> Model {
 fn joints_are_in_equilibrium_while_frames_pound() {
     let mut model = pounding_pair(1e-4);
     let assembled = assembled(&model);
-    let own = assembled.buildings[0].members.members.iter();
-    model.analysis.members.histories = own.map(|member| format!("A.{}", member.place)).collect();
+    let space_members = assembled.buildings[0].members.members.iter();
+    model.analysis.members.histories = space_members
+        .map(|member| format!("A.{}", member.place))
+        .collect();
     let (system, outcome) = run(&model, 3.0);
     assert!(outcome.face_impacts.len() > 2, "they pound");
-    let own = &system.buildings[0];
+    let building = &system.buildings[0];
     let history = outcome.member_history.as_ref().expect("asked for");
     let mut checked = 0;
     for (instant, row) in history.rows().enumerate().step_by(7) {
-        let places = own.members.members.iter().map(|member| match member.place {
-            MemberPlace::InSpace(place) => place,
-            _ => panic!("in space"),
-        });
+        let places = building
+            .members
+            .members
+            .iter()
+            .map(|member| match member.place {
+                MemberPlace::InSpace(place) => place,
+                _ => panic!("in space"),
+            });
         let members: Vec<(SpacePlace, [[f64; 6]; 2])> = places
             .zip(row.chunks_exact(2))
             .map(|(place, ends)| (place, [ends[0], ends[1]]))
@@ -689,10 +709,11 @@ fn histories_hold_six_forces() {
     let column = &system.buildings[building].members.members[member];
     assert_eq!(column.place.to_string(), "column.1.1.1");
     let forms: Vec<usize> = {
-        let own = &column.sections[0];
-        own.forms
+        let section = &column.sections[0];
+        section
+            .forms
             .into_iter()
-            .chain(own.across.expect("in space"))
+            .chain(section.across.expect("in space"))
             .collect()
     };
     let mut reached = [0.0_f64; 6];

@@ -87,7 +87,9 @@ fn frames_bear_the_inertia_above() {
                 let force = building.equations.mass[at.dof] * accelerations[floor][row];
                 [force, force * (at.height - base)]
             });
-            let sum = above.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+            let sum = above.fold([0.0; 2], |sum, above| {
+                [sum[0] + above[0], sum[1] + above[1]]
+            });
             shear = shear.max(sum[0].abs());
             moment = moment.max(sum[1].abs());
         }

@@ -286,16 +286,16 @@ pub(crate) fn moving(system: &System, displacement: &[f64], velocity: &[f64]) ->
 
 /// Base shears of all buildings \[N\].
 pub(crate) fn base_shears(outcome: &Outcome) -> Vec<f64> {
-    let is_base = |own: Column| matches!(own.owner, Owner::Building(_));
+    let is_base = |column: Column| matches!(column.owner, Owner::Building(_));
     outcome
         .peaks
-        .sizes(|own| is_base(own) && own == Column::along(own.owner, Kind::Shear))
+        .sizes(|column| is_base(column) && column == Column::along(column.owner, Kind::Shear))
 }
 
 /// Greatest forces of all springs that yield \[N, N·m\].
 pub(crate) fn spring_forces(outcome: &Outcome) -> Vec<f64> {
-    let is_spring = |own: Column| matches!(own.owner, Owner::Spring(_));
+    let is_spring = |column: Column| matches!(column.owner, Owner::Spring(_));
     outcome
         .peaks
-        .sizes(|own| is_spring(own) && own.kind == Kind::Force)
+        .sizes(|column| is_spring(column) && column.kind == Kind::Force)
 }

@@ -59,7 +59,7 @@ fn stick() -> Building {
         shear_rigidity: None,
         line_mass: 0.0,
     };
-    let own = frame(1, &[]);
+    let frame = frame(1, &[]);
     let mut building = framed(
         "A",
         Frame {
@@ -67,13 +67,13 @@ fn stick() -> Building {
             columns: vec![section],
             floor_mass: vec![120e3],
             column_segments: 1,
-            ..own
+            ..frame
         },
     );
-    let Structure::Frame(own) = &mut building.structure else {
+    let Structure::Frame(frame) = &mut building.structure else {
         unreachable!("it is a frame")
     };
-    own.axial.columns_flexible = true;
+    frame.axial.columns_flexible = true;
     building.damping = Damping::Rayleigh {
         alpha: 0.2,
         beta: 0.0,
@@ -82,14 +82,14 @@ fn stick() -> Building {
 }
 
 /// Rise of the node of the foundation and the moment there for rotations \[m, N·m\], along the equilibrium path.
-fn by_path(own: &BuildingSystem, rotations: &[f64]) -> Vec<[f64; 2]> {
-    let place = own.foundation.expect("it stands on one");
+fn by_path(system: &BuildingSystem, rotations: &[f64]) -> Vec<[f64; 2]> {
+    let place = system.foundation.expect("it stands on one");
     let [rise, turning] = [place.rise.expect("it lifts"), place.turning];
-    let mut pattern = vec![0.0; own.equations.len()];
+    let mut pattern = vec![0.0; system.equations.len()];
     pattern[turning] = 1.0;
-    let settled = settle(own, STANDARD_GRAVITY).expect("it bears its weight");
+    let settled = settle(system, STANDARD_GRAVITY).expect("it bears its weight");
     let start = settled.displacement[turning];
-    let mut path = EquilibriumPath::driven(own, &settled, pattern, turning);
+    let mut path = EquilibriumPath::driven(system, &settled, pattern, turning);
     rotations
         .iter()
         .map(|rotation| {
@@ -108,32 +108,35 @@ fn by_path(own: &BuildingSystem, rotations: &[f64]) -> Vec<[f64; 2]> {
 
 /// The same from vertical equilibrium by bisection, with forces of first loading.
 fn by_bisection(
-    own: &BuildingSystem,
+    system: &BuildingSystem,
     bed: &[BedSpring],
     bearing: Option<BearingStrength>,
     rotation: f64,
 ) -> [f64; 2] {
-    let sticks = &own.discretization.stick_model;
-    let place = own.foundation.expect("it stands on one");
+    let sticks = &system.discretization.stick_model;
+    let place = system.foundation.expect("it stands on one");
     let node = sticks.foundation.as_ref().expect("one").node;
     let origin = sticks.nodes[node].x;
-    let weights = sticks.nodes.iter().map(|own| own.mass() * STANDARD_GRAVITY);
+    let weights = sticks
+        .nodes
+        .iter()
+        .map(|node| node.mass() * STANDARD_GRAVITY);
     let weight: f64 = weights.clone().sum();
     let skew = weights.zip(&sticks.nodes);
-    let skew: f64 = skew.map(|(w, own)| w * (own.x - origin)).sum();
+    let skew: f64 = skew.map(|(w, node)| w * (node.x - origin)).sum();
     let force = |spring: &BedSpring, rise: f64| {
         let sunk = -(rise + (place.middle + spring.at) * rotation);
         let elastic = spring.stiffness * sunk;
-        let most = bearing.map_or(elastic, |own| {
-            let strength = own.strength * spring.area;
-            elastic.min(strength + own.hardening * (elastic - strength))
+        let most = bearing.map_or(elastic, |bearing| {
+            let strength = bearing.strength * spring.area;
+            elastic.min(strength + bearing.hardening * (elastic - strength))
         });
         most.max(0.0)
     };
     let (mut low, mut high) = (-1.0, 1.0);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
-        let borne: f64 = bed.iter().map(|own| force(own, middle)).sum();
+        let borne: f64 = bed.iter().map(|bed| force(bed, middle)).sum();
         if borne > weight {
             low = middle;
         } else {
@@ -142,7 +145,7 @@ fn by_bisection(
     }
     let moment = bed
         .iter()
-        .map(|own| -force(own, low) * (place.middle + own.at));
+        .map(|bed| -force(bed, low) * (place.middle + bed.at));
     [low, moment.sum::<f64>() + skew]
 }
 
@@ -172,14 +175,14 @@ fn a_foundation_lifts_along_its_static_curve() {
     for (index, (building, uplift, bearing)) in cases.into_iter().enumerate() {
         let model = alone(lifting(building, Uplift { bearing, ..uplift }));
         let system = assembled(&model);
-        let own = &system.buildings[0];
-        let foundation = own.foundation.expect("it stands on one").foundation;
+        let building = &system.buildings[0];
+        let foundation = building.foundation.expect("it stands on one").foundation;
         let bed = foundation.bed(3e8, None).expect("sound");
-        let start = by_bisection(own, &bed, bearing, 0.0)[1];
-        for (rotation, [rise, moment]) in rotations.iter().zip(by_path(own, &rotations)) {
+        let start = by_bisection(building, &bed, bearing, 0.0)[1];
+        for (rotation, [rise, moment]) in rotations.iter().zip(by_path(building, &rotations)) {
             // Under weight alone an uneven building has turned already.
-            let settled = own.rest.displacement[own.foundation.expect("one").turning];
-            let due = by_bisection(own, &bed, bearing, rotation + settled);
+            let settled = building.rest.displacement[building.foundation.expect("one").turning];
+            let due = by_bisection(building, &bed, bearing, rotation + settled);
             let (scale, what) = (3e6, format!("case {index} at {rotation}"));
             close(rise, due[0], 1e-2, 1e-8, &what);
             close(moment, due[1], scale, 1e-8, &what);
@@ -235,7 +238,7 @@ fn what_stays_in_contact_is_a_foundation_on_springs() {
         let free = lifting(building.clone(), uplift);
         let foundation = free.base.foundation.expect("one");
         let bed = foundation.bed(1e9, None).expect("sound");
-        let turned: f64 = bed.iter().map(|own| own.stiffness * own.at * own.at).sum();
+        let turned: f64 = bed.iter().map(|bed| bed.stiffness * bed.at * bed.at).sum();
         let matrix = |uu: f64, tt: f64| vec![vec![uu, 0.0], vec![0.0, tt]];
         let mut held = alone(building);
         held.buildings[0].base.foundation = Some(Foundation {
@@ -268,9 +271,9 @@ fn what_stays_in_contact_is_a_foundation_on_springs() {
 fn lifting_buildings_balance_their_energies_and_mirror() {
     let even = framed("A", frame(3, &[5.0, 5.0]));
     let mut uneven = framed("A", frame(2, &[6.0, 3.0]));
-    if let Structure::Frame(own) = &mut uneven.structure {
-        own.axial.columns_flexible = true;
-        for column in &mut own.columns {
+    if let Structure::Frame(frame) = &mut uneven.structure {
+        frame.axial.columns_flexible = true;
+        for column in &mut frame.columns {
             column.axial_rigidity = Some(5e9);
         }
     }
@@ -300,8 +303,8 @@ fn lifting_buildings_balance_their_energies_and_mirror() {
             beta: 1e-3,
         };
         let mut other = building.clone();
-        if let Structure::Frame(own) = &mut other.structure {
-            own.spans.reverse();
+        if let Structure::Frame(frame) = &mut other.structure {
+            frame.spans.reverse();
         }
         let motion = scaled(1.0, 4.0);
         let mirrored = scaled(-1.0, 4.0);
@@ -315,13 +318,13 @@ fn lifting_buildings_balance_their_energies_and_mirror() {
                 ..steps(5e-4, 1)
             };
             let again = run(&system, motion, &direct);
-            let [x, y] = [&outcome, &again].map(|own| floors(own, count));
+            let [x, y] = [&outcome, &again].map(|outcome| floors(outcome, count));
             assert!(difference(&x, &y) < 1e-7, "{}", difference(&x, &y));
             let lifted = outcome.peaks.owned_by(Owner::Spring(0));
             assert!(lifted.of(jostle::history::Kind::Lifted).greatest.value > 0.05);
             x
         });
-        let b: Vec<f64> = b.into_iter().map(|own| -own).collect();
+        let b: Vec<f64> = b.into_iter().map(|value| -value).collect();
         assert!(difference(&a, &b) < 1e-7, "{}", difference(&a, &b));
     }
 }
@@ -362,20 +365,20 @@ fn damping_is_relative_to_what_it_says() {
             };
             building.mass_damping = damped;
             let system = assembled(&alone(building));
-            let own = &system.buildings[0];
-            let nodes = &own.discretization.stick_model.nodes;
-            let base = own.discretization.stick_model.foundation.as_ref();
+            let building = &system.buildings[0];
+            let nodes = &building.discretization.stick_model.nodes;
+            let base = building.discretization.stick_model.foundation.as_ref();
             let base = nodes[base.expect("one").node];
             let (sway, rise, turned) = (0.3, 0.2, 0.02);
-            let mut rigid = vec![0.0; own.equations.len()];
+            let mut rigid = vec![0.0; building.equations.len()];
             for (index, node) in nodes.iter().enumerate() {
                 let moves = [
-                    (own.equations.horizontal(index), sway - node.y * turned),
+                    (building.equations.horizontal(index), sway - node.y * turned),
                     (
-                        own.equations.vertical(index),
+                        building.equations.vertical(index),
                         rise + (node.x - base.x) * turned,
                     ),
-                    (own.equations.rotation(index), turned),
+                    (building.equations.rotation(index), turned),
                 ];
                 for (dof, value) in moves {
                     if let Some(dof) = dof {
@@ -383,9 +386,9 @@ fn damping_is_relative_to_what_it_says() {
                     }
                 }
             }
-            let mass = own.equations.mass.iter().zip(&rigid);
+            let mass = building.equations.mass.iter().zip(&rigid);
             let inertia: f64 = mass.map(|(m, v)| m * v * v).sum();
-            let found = 0.4 * inertia + own.equations.dashpots.quadratic_form(&rigid);
+            let found = 0.4 * inertia + building.equations.dashpots.quadratic_form(&rigid);
             let due = match damped {
                 MassDamping::Support => 0.0,
                 MassDamping::Ground => 0.4 * inertia,
@@ -400,13 +403,13 @@ fn damping_is_relative_to_what_it_says() {
 fn rocking_neighbours_pound() {
     let mut right = stick();
     right.name = "B".to_owned();
-    if let Structure::Frame(own) = &mut right.structure {
-        own.floor_mass = vec![60e3];
+    if let Structure::Frame(frame) = &mut right.structure {
+        frame.floor_mass = vec![60e3];
     }
     let pair = |motion: &GroundMotion, swapped: bool| {
         let mut buildings: Vec<Building> = [stick(), right.clone()]
             .into_iter()
-            .map(|own| lifting(own, on_springs(4)))
+            .map(|building| lifting(building, on_springs(4)))
             .collect();
         if swapped {
             buildings.reverse();
@@ -442,15 +445,16 @@ fn feet_of_columns_bear_compression_alone() {
         assembled(&alone(building))
     };
     let [held, free] = [false, true].map(on_springs);
-    let weak = [&held, &free].map(|own| floors(&run(own, &scaled(0.05, 3.0), &steps(1e-3, 1)), 3));
+    let weak =
+        [&held, &free].map(|system| floors(&run(system, &scaled(0.05, 3.0), &steps(1e-3, 1)), 3));
     assert!(difference(&weak[0], &weak[1]) < 1e-8);
     let strong = run(&free, &scaled(2.0, 3.0), &steps(1e-3, 1));
     assert!(strong.energy.worst_imbalance < 1e-6);
     let springs = strong.state.springs.iter();
     assert!(springs.clone().all(|own| own.force() <= 0.0));
     let lifted = |side: usize| {
-        let own = strong.peaks.owned_by(Owner::Spring(side));
-        own.of(jostle::history::Kind::Lifted).greatest.value
+        let peaks = strong.peaks.owned_by(Owner::Spring(side));
+        peaks.of(jostle::history::Kind::Lifted).greatest.value
     };
     assert!(lifted(0) > 0.0 && lifted(1) > 0.0);
 }
@@ -474,7 +478,7 @@ fn parts_say_how_far_it_lifts_and_settles() {
     assert_eq!((&part.name[..], part.kind), ("A.footing", "footing"));
     let memories = &outcome.state.springs;
     let settled = system.buildings[0].equations.springs.iter().zip(memories);
-    let settled = settled.map(|(own, memory)| own.hysteresis.settlement(memory));
+    let settled = settled.map(|(spring, memory)| spring.hysteresis.settlement(memory));
     let settled = settled.fold(0.0, f64::max);
     assert!(settled > 1e-4);
     assert_eq!(part.settlement_m, Some(settled));
@@ -506,12 +510,12 @@ fn a_half_space_gives_both_sums() {
     model.buildings[0].base.foundation = Some(foundation);
     model.buildings[0].gravity.preload = true;
     let system = assembled(&model);
-    let own = &system.buildings[0];
-    let place = own.foundation.expect("one");
+    let building = &system.buildings[0];
+    let place = building.foundation.expect("one");
     let due = half_space.springs(&foundation, place.period);
-    let bed = &own.discretization.stick_model.bed;
-    let vertical: f64 = bed.iter().map(|own| own.stiffness).sum();
-    let turned: f64 = bed.iter().map(|own| own.stiffness * own.at * own.at).sum();
+    let bed = &building.discretization.stick_model.bed;
+    let vertical: f64 = bed.iter().map(|bed| bed.stiffness).sum();
+    let turned: f64 = bed.iter().map(|bed| bed.stiffness * bed.at * bed.at).sum();
     close(
         vertical,
         due.vertical_stiffness,
@@ -521,8 +525,8 @@ fn a_half_space_gives_both_sums() {
     );
     close(turned, due.rocking_stiffness, turned, 1e-10, "rocking");
     // The weight sinks by W/K_z.
-    let sunk = -own.rest.displacement[place.rise.expect("it lifts")];
-    let weight = STANDARD_GRAVITY * own.equations.total_mass();
+    let sunk = -building.rest.displacement[place.rise.expect("it lifts")];
+    let weight = STANDARD_GRAVITY * building.equations.total_mass();
     close(sunk, weight / vertical, sunk, 1e-12, "sinking");
     // Springs and dashpots of a rectangle as another program computes them, at 0.6 s.
     let there = half_space.springs(&foundation, 0.6);

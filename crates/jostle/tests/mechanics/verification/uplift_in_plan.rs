@@ -64,8 +64,12 @@ fn along_an_axis_it_lifts_as_in_one_plane() {
     let plan = rectangle(2.0, 1.0, 12.0, 8.0);
     let deep = tiers(&plan);
     let plane = Structure::Shear(Shear {
-        mass: deep.floors.iter().map(|own| own.mass).collect(),
-        stiffness: deep.storeys.iter().map(|own| own.stiffness[0]).collect(),
+        mass: deep.floors.iter().map(|floor| floor.mass).collect(),
+        stiffness: deep
+            .storeys
+            .iter()
+            .map(|storey| storey.stiffness[0])
+            .collect(),
         storey_heights: deep.storey_heights.clone(),
     });
     let bearing = BearingStrength {
@@ -105,9 +109,9 @@ fn along_an_axis_it_lifts_as_in_one_plane() {
         };
         let in_plan = set(lifting(Structure::Tiers(deep.clone()), foundation, solver));
         for axis in axes {
-            let mut own = [foundation, foundation.turned()][axis];
-            own.uplift.as_mut().expect("it lifts").springs_across = None;
-            let flat = set(lifting(plane.clone(), own, solver));
+            let mut footing = [foundation, foundation.turned()][axis];
+            footing.uplift.as_mut().expect("it lifts").springs_across = None;
+            let flat = set(lifting(plane.clone(), footing, solver));
             let motion = shaking("line", 4.0, 1.6);
             let (_, flat) = run(&flat, &motion);
             let angle = 0.25 * TAU * axis as f64;
@@ -121,14 +125,14 @@ fn along_an_axis_it_lifts_as_in_one_plane() {
                 assert!(largest(&expected) > 1e-3 && apart < 1e-8, "{apart:e}");
             }
             let owner = Owner::Foundation(0);
-            let [a, b] = [&found, &flat].map(|own| own.peaks.work(owner));
+            let [a, b] = [&found, &flat].map(|outcome| outcome.peaks.work(owner));
             assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
             let rise = Column::along(owner, Kind::Displacement).up();
-            let sunk = [&found, &flat].map(|own| -own.peaks.of(rise).least.value);
+            let sunk = [&found, &flat].map(|outcome| -outcome.peaks.of(rise).least.value);
             println!("greatest sinking {sunk:?}");
             assert!(sunk[0] > 1e-5 && (sunk[0] / sunk[1] - 1.0).abs() < 1e-7);
             let lifted = Column::along(Owner::Spring(0), Kind::Lifted);
-            let lifted = [&found, &flat].map(|own| own.peaks.of(lifted).greatest.value);
+            let lifted = [&found, &flat].map(|outcome| outcome.peaks.of(lifted).greatest.value);
             println!("first spring without force for {lifted:?} s");
             assert!((lifted[0] - lifted[1]).abs() < 1e-9, "{lifted:?}");
         }
@@ -146,7 +150,7 @@ fn frames_at_lines_lift_as_in_one_plane() {
     let half = GroundSprings {
         vertical_stiffness: 0.5 * GROUND.vertical_stiffness,
         vertical_damping: 0.5 * GROUND.vertical_damping,
-        sway: GROUND.sway.map(|own| own.map(|own| 0.5 * own)),
+        sway: GROUND.sway.map(|sway| sway.map(|value| 0.5 * value)),
     };
     let uplift = bed(7, 4);
     let whole = Foundation {
@@ -161,8 +165,8 @@ fn frames_at_lines_lift_as_in_one_plane() {
         }),
         ..Foundation::rectangle(12.0, 8.0, 55e3)
     };
-    let mut own = frame(true);
-    own.axial.columns_flexible = true;
+    let mut frame = frame(true);
+    frame.axial.columns_flexible = true;
     let across = TierStorey {
         stiffness: [0.0, 3e8, 5e9],
         centre: [6.0, 4.0],
@@ -172,8 +176,8 @@ fn frames_at_lines_lift_as_in_one_plane() {
         storeys: vec![across; 3],
         storey_heights: vec![3.2; 3],
         frames: vec![
-            standing("1", [0.0, 1.0], own.clone()),
-            standing("2", [0.0, 7.0], own),
+            standing("1", [0.0, 1.0], frame.clone()),
+            standing("2", [0.0, 7.0], frame),
         ],
         ..Tiers::default()
     };
@@ -197,10 +201,10 @@ fn frames_at_lines_lift_as_in_one_plane() {
 }
 
 /// Sums of the forces of the contact springs at rest: the weight, and its moments about the middle \[N, N·m\].
-fn at_rest(own: &BuildingSystem) -> [f64; 3] {
-    let settled = settle(own, STANDARD_GRAVITY).expect("it bears its weight");
-    let bed = &own.discretization.stick_model.bed;
-    let first = own.equations.single_springs - bed.len();
+fn at_rest(system: &BuildingSystem) -> [f64; 3] {
+    let settled = settle(system, STANDARD_GRAVITY).expect("it bears its weight");
+    let bed = &system.discretization.stick_model.bed;
+    let first = system.equations.single_springs - bed.len();
     let mut sums = [0.0; 3];
     for (spring, memory) in bed.iter().zip(&settled.springs[first..]) {
         let force = -memory.force();
@@ -227,13 +231,13 @@ fn the_ground_bears_the_weight_below_its_centre() {
             continue;
         }
         let system = assembled(&model);
-        let own = &system.buildings[0];
-        let [weight, ..] = at_rest(own);
-        let due = STANDARD_GRAVITY * own.equations.total_mass();
+        let building = &system.buildings[0];
+        let [weight, ..] = at_rest(building);
+        let due = STANDARD_GRAVITY * building.equations.total_mass();
         println!("{kind}: {weight} N of {due} N");
         assert!((weight / due - 1.0).abs() < 1e-9, "{kind}: {weight} {due}");
         if kind == "storeys" {
-            let [_, along, across] = at_rest(own);
+            let [_, along, across] = at_rest(building);
             for (axis, found) in [along, across].into_iter().enumerate() {
                 let moments = lumped.iter().map(|floor| {
                     STANDARD_GRAVITY * floor.tier.mass * (floor.tier.centre[axis] - middle[axis])
@@ -252,7 +256,7 @@ fn a_block_is_borne_to_the_edge_and_to_the_corner() {
     let plan = rectangle(0.0, 0.0, 6.0, 6.0);
     let mut block = tiers(&plan);
     for storey in &mut block.storeys {
-        storey.stiffness = storey.stiffness.map(|own| 1e4 * own);
+        storey.stiffness = storey.stiffness.map(|stiffness| 1e4 * stiffness);
     }
     let foundation = Foundation {
         uplift: Some(bed(2, 2)),
@@ -260,12 +264,19 @@ fn a_block_is_borne_to_the_edge_and_to_the_corner() {
     };
     let model = lifting(Structure::Tiers(block), foundation, Solver::Riccati);
     let system = assembled(&model);
-    let own = &system.buildings[0];
-    let weight = STANDARD_GRAVITY * own.equations.total_mass();
+    let building = &system.buildings[0];
+    let weight = STANDARD_GRAVITY * building.equations.total_mass();
     let (arm, stiffness) = (2.5, GROUND.vertical_stiffness);
-    let rocking = own.discretization.stick_model.plan_base.expect("a base");
+    let rocking = building
+        .discretization
+        .stick_model
+        .plan_base
+        .expect("a base");
     let node = rocking.rocking.expect("it rocks");
-    let dofs = [own.equations.horizontal(node), own.equations.vertical(node)];
+    let dofs = [
+        building.equations.horizontal(node),
+        building.equations.vertical(node),
+    ];
     let dofs = dofs.map(|dof| dof.expect("it moves"));
     let along = |by: f64| {
         let free = stiffness * arm * arm * by;
@@ -290,13 +301,13 @@ fn a_block_is_borne_to_the_edge_and_to_the_corner() {
         (&diagonal, [FRAC_1_SQRT_2, -FRAC_1_SQRT_2]),
     ];
     for (due, direction) in curves {
-        let settled = settle(own, STANDARD_GRAVITY).expect("it bears its weight");
-        let mut pattern = vec![0.0; own.equations.len()];
+        let settled = settle(building, STANDARD_GRAVITY).expect("it bears its weight");
+        let mut pattern = vec![0.0; building.equations.len()];
         for (dof, share) in dofs.into_iter().zip(direction) {
             pattern[dof] = share;
         }
         let lead = if direction[1] == 0.0 { 0 } else { 1 };
-        let mut path = EquilibriumPath::driven(own, &settled, pattern, dofs[lead]);
+        let mut path = EquilibriumPath::driven(building, &settled, pattern, dofs[lead]);
         // The edge lifts at W/(K_z a); the last corner at 4 W/(K_z √2 a).
         let unit = weight / (stiffness * arm);
         let mut passed = 0.0;
@@ -335,7 +346,7 @@ fn turned_by_a_quarter_it_moves_as_before() {
     known.floors[0].centre = [7.0, 3.5];
     let mut other = known.clone();
     for floor in &mut other.floors {
-        floor.plan = floor.plan.iter().map(|own| turned(*own)).collect();
+        floor.plan = floor.plan.iter().map(|plan| turned(*plan)).collect();
         floor.centre = turned(floor.centre);
     }
     for storey in &mut other.storeys {
@@ -365,7 +376,7 @@ fn turned_by_a_quarter_it_moves_as_before() {
             (place.turning(), place.turning(), 1.0),
         ] {
             let [a, b] = [column(&known, a), column(&other, b)];
-            let b: Vec<f64> = b.iter().map(|own| sign * own).collect();
+            let b: Vec<f64> = b.iter().map(|value| sign * value).collect();
             let apart = difference(&b, &a);
             println!("floor {floor}: {apart:e}");
             assert!(largest(&a) > 1e-6 && apart < 1e-7, "{apart:e}");
@@ -373,7 +384,10 @@ fn turned_by_a_quarter_it_moves_as_before() {
     }
     let lifted = |spring| {
         let place = Column::along(Owner::Spring(spring), Kind::Lifted);
-        known.peaks.get(place).map_or(0.0, |own| own.greatest.value)
+        known
+            .peaks
+            .get(place)
+            .map_or(0.0, |peak| peak.greatest.value)
     };
     assert!((0..15).any(|spring| lifted(spring) > 0.0));
 }

@@ -36,14 +36,14 @@ fn frame(beam_mass: f64) -> Frame {
 /// Two equal frames along the row, and two across that carry nothing by themselves.
 fn in_plan(slab: f64, along: &Frame, hinges: &FrameHinges) -> Building {
     let across = frame(0.0);
-    let standing = |name: &str, at, angle: f64, own: &Frame, hinges: &FrameHinges| PlanFrame {
+    let standing = |name: &str, at, angle: f64, frame: &Frame, hinges: &FrameHinges| PlanFrame {
         name: name.to_owned(),
         at,
         direction: [angle.cos(), angle.sin()],
         lines: Vec::new(),
         base: Default::default(),
         hinges: hinges.clone(),
-        frame: own.clone(),
+        frame: frame.clone(),
     };
     let elastic = FrameHinges::default();
     let frames = vec![
@@ -102,12 +102,12 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>, solver: Option<Solver>) -> Mo
 fn shaking(along: f64, up: f64, buildings: usize) -> GroundMotion {
     let mut motion = fading("along", 5.0, [along, 2.0], 200);
     let vertical = fading("up", 9.0, [up, 2.0], 200);
-    let own = OwnGround {
+    let ground = OwnGround {
         vertical: Some(vertical),
         ..OwnGround::default()
     };
     motion.grounds = Some(Box::new(Grounds {
-        own: vec![own; buildings],
+        own: vec![ground; buildings],
     }));
     motion
 }
@@ -118,8 +118,8 @@ fn run(model: &Model, motion: &GroundMotion) -> Outcome {
     outcome
 }
 
-fn same_floors(own: &Outcome, plane: &Outcome, tolerance: f64) {
-    let floors = own.peaks.floors(0);
+fn same_floors(outcome: &Outcome, plane: &Outcome, tolerance: f64) {
+    let floors = outcome.peaks.floors(0);
     for (a, b) in floors.iter().zip(&plane.peaks.floors(0)) {
         let [x, y] = [a, b].map(|floor| floor.displacement_max().value);
         close(x, y, y, tolerance, "along");
@@ -132,13 +132,13 @@ fn same_floors(own: &Outcome, plane: &Outcome, tolerance: f64) {
 /// Frames along the row carry all: each moves in both directions as it does alone.
 #[test]
 fn frames_rise_as_in_their_own_plane() {
-    let own = frame(6000.0);
-    let space = in_plan(LIGHT, &own, &FrameHinges::default());
-    let plane = building(Structure::Frame(with_half(own)));
+    let frame = frame(6000.0);
+    let space = in_plan(LIGHT, &frame, &FrameHinges::default());
+    let plane = building(Structure::Frame(with_half(frame)));
     let motion = shaking(3.0, 4.0, 1);
     for solver in [Solver::Riccati, Solver::Stiffness] {
         let [a, b] = [space.clone(), plane.clone()]
-            .map(|own| run(&model(vec![own], vec![], Some(solver)), &motion));
+            .map(|building| run(&model(vec![building], vec![], Some(solver)), &motion));
         same_floors(&a, &b, 1e-5);
         for floor in a.peaks.floors(0) {
             assert!(floor.across().displacement_max().value.abs() < 1e-9);
@@ -150,14 +150,14 @@ fn frames_rise_as_in_their_own_plane() {
 #[test]
 fn columns_share_a_slab_equally() {
     let slab = 90e3;
-    let own = frame(0.0);
-    let space = in_plan(slab, &own, &FrameHinges::default());
-    let mut plane = own;
+    let frame = frame(0.0);
+    let space = in_plan(slab, &frame, &FrameHinges::default());
+    let mut plane = frame;
     // Three columns of twelve.
     plane.floor_mass = vec![slab / 4.0; STOREYS];
     let motion = shaking(1e-9, 4.0, 1);
-    let [a, b] = [space, building(Structure::Frame(plane))].map(|own| {
-        let mut model = model(vec![own], vec![], Some(Solver::Riccati));
+    let [a, b] = [space, building(Structure::Frame(plane))].map(|building| {
+        let mut model = model(vec![building], vec![], Some(Solver::Riccati));
         model.analysis.tolerance = 1e-4;
         run(&model, &motion)
     });
@@ -170,7 +170,7 @@ fn columns_share_a_slab_equally() {
 /// Beams crack under self weight, and yield when shaken: as in the plane.
 #[test]
 fn self_weight_cracks_beams_in_plan() {
-    let own = frame(9000.0);
+    let frame = frame(9000.0);
     let hinge = |cracking: f64, yielding: f64| {
         let corners = Corners {
             cracking,
@@ -185,12 +185,16 @@ fn self_weight_cracks_beams_in_plan() {
         beams: vec![vec![hinge(20e3, 150e3); 2]; STOREYS],
         ..FrameHinges::default()
     };
-    let space = in_plan(LIGHT, &own, &hinges);
-    let mut plane = building(Structure::Frame(with_half(own)));
+    let space = in_plan(LIGHT, &frame, &hinges);
+    let mut plane = building(Structure::Frame(with_half(frame)));
     plane.hinges = Some(Hinges::Frame(hinges));
     let motion = shaking(4.0, 3.0, 1);
-    let [a, b] =
-        [space, plane].map(|own| run(&model(vec![own], vec![], Some(Solver::Riccati)), &motion));
+    let [a, b] = [space, plane].map(|building| {
+        run(
+            &model(vec![building], vec![], Some(Solver::Riccati)),
+            &motion,
+        )
+    });
     same_floors(&a, &b, 1e-4);
     assert!(!a.spring_events.is_empty());
 }
@@ -217,8 +221,8 @@ fn solvers_agree_in_three_directions() {
             floor.centre[0] += 12.02;
             floor.plan.iter_mut().for_each(|corner| corner[0] += 12.02);
         }
-        for own in &mut tiers.frames {
-            own.at[0] += 12.02;
+        for frame in &mut tiers.frames {
+            frame.at[0] += 12.02;
         }
     }
     let gap = Gap::between([Some(0), Some(1)], 0.02, CONCRETE);
@@ -246,11 +250,11 @@ fn solvers_agree_in_three_directions() {
 #[test]
 fn a_space_frame_rises_as_plane_frames() {
     let (columns, beams) = (concrete(0.5, 0.5), concrete(0.3, 0.6));
-    let section = |own: &Section| SpaceSection {
+    let section = |section: &Section| SpaceSection {
         size: [0.5, 0.5],
-        flexural_rigidity: [own.flexural_rigidity; 2],
+        flexural_rigidity: [section.flexural_rigidity; 2],
         torsional_rigidity: 1.0,
-        axial_rigidity: own.axial_rigidity,
+        axial_rigidity: section.axial_rigidity,
         shear_rigidity: None,
     };
     let mut members = Vec::new();
@@ -298,8 +302,12 @@ fn a_space_frame_rises_as_plane_frames() {
             Structure::Tiers(tiers.clone()),
             Structure::Frame(plane.clone()),
         ];
-        let [a, b] =
-            structures.map(|own| run(&model(vec![building(own)], vec![], Some(solver)), &motion));
+        let [a, b] = structures.map(|structure| {
+            run(
+                &model(vec![building(structure)], vec![], Some(solver)),
+                &motion,
+            )
+        });
         same_floors(&a, &b, 1e-5);
     }
 }
@@ -307,9 +315,9 @@ fn a_space_frame_rises_as_plane_frames() {
 /// Frames along the row are stiffer than those across, which the first mode moves: a push along the row follows the mode along it.
 #[test]
 fn a_push_along_the_row_takes_the_mode_along_the_row() {
-    let own = frame(6000.0);
-    let plane = with_half(own.clone());
-    let mut space = in_plan(LIGHT, &own, &FrameHinges::default());
+    let frame = frame(6000.0);
+    let plane = with_half(frame.clone());
+    let mut space = in_plan(LIGHT, &frame, &FrameHinges::default());
     if let Structure::Tiers(tiers) = &mut space.structure {
         for weak in &mut tiers.frames[2..] {
             for column in &mut weak.frame.columns {
@@ -317,8 +325,8 @@ fn a_push_along_the_row_takes_the_mode_along_the_row() {
             }
         }
     }
-    let [space, plane] = [space, building(Structure::Frame(plane))].map(|own| {
-        let system = runs::assembled(&model(vec![own], vec![], None));
+    let [space, plane] = [space, building(Structure::Frame(plane))].map(|building| {
+        let system = runs::assembled(&model(vec![building], vec![], None));
         let first = system.buildings[0].lateral_modes().next().expect("a mode");
         let ratios = [
             first.effective_mass_ratio_x,
@@ -337,10 +345,10 @@ fn a_push_along_the_row_takes_the_mode_along_the_row() {
 #[test]
 fn columns_that_stand_carry_the_whole_slab() {
     let slab = 90e3;
-    let mut own = frame(0.0);
-    own.own_columns.insert([STOREYS - 1, 2], None);
-    own.own_beams.insert([STOREYS - 1, 1], None);
-    let space = in_plan(slab, &own, &FrameHinges::default());
+    let mut frame = frame(0.0);
+    frame.own_columns.insert([STOREYS - 1, 2], None);
+    frame.own_beams.insert([STOREYS - 1, 1], None);
+    let space = in_plan(slab, &frame, &FrameHinges::default());
     let system = runs::assembled(&model(vec![space], vec![], None));
     let rising: f64 = system.buildings[0].equations.vertical_mass.iter().sum();
     close(rising, slab * STOREYS as f64, rising, 1e-12, "mass");

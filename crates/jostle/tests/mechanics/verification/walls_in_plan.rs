@@ -60,12 +60,12 @@ fn wall(line: Option<[PlanPoint; 2]>) -> Wall {
     }
 }
 
-fn model(own: Building, wall: Wall) -> Model {
+fn model(building: Building, wall: Wall) -> Model {
     let mut gap = Gap::between([Some(0), Some(1)], 0.01, CONCRETE);
     // The wall of the plane has no heights of its own either.
     gap.in_plan.friction = 0.0;
     Model {
-        buildings: vec![own],
+        buildings: vec![building],
         walls: vec![wall],
         gaps: vec![gap],
         analysis: Analysis {
@@ -119,8 +119,13 @@ fn a_wall_gives_way_as_in_one_plane() {
         close(a, b, b, 1e-3, "wall and roof");
     }
     let strongest = |peaks: &mut dyn Iterator<Item = f64>| peaks.fold(0.0, f64::max);
-    let of_face = strongest(&mut deep.face_impacts.iter().map(|own| own.peak_force.value));
-    let of_contact = strongest(&mut flat.impacts.iter().map(|own| own.peak_force));
+    let of_face = strongest(
+        &mut deep
+            .face_impacts
+            .iter()
+            .map(|face_impact| face_impact.peak_force.value),
+    );
+    let of_contact = strongest(&mut flat.impacts.iter().map(|impact| impact.peak_force));
     close(of_face, of_contact, of_contact, 1e-3, "force");
 }
 

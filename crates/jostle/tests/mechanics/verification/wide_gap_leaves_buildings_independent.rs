@@ -49,8 +49,8 @@ fn wide_gap_leaves_buildings_independent_bit_for_bit() {
         for (floor, other) in floors.iter().zip(&alone.peaks.floors(0)) {
             for (column, peak) in alone.peaks.iter() {
                 if column.owner == other.column(column.kind).owner {
-                    let own = floor.to(column.direction).of(column.kind);
-                    assert_eq!(own, peak, "building {index}: {column:?}");
+                    let got = floor.to(column.direction).of(column.kind);
+                    assert_eq!(got, peak, "building {index}: {column:?}");
                 }
             }
         }

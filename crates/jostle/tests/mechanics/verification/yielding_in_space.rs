@@ -121,11 +121,11 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
             .iter()
             .map(|&(storeys, [mass, stiffness], _)| {
                 let shear = equal_storeys(storeys, [mass, stiffness]);
-                let own = spring(rule, stiffness, 8e-3);
+                let spring = spring(rule, stiffness, 8e-3);
                 building(
                     "plane",
                     Structure::Shear(shear),
-                    Some(Hinges::Storeys(vec![own; storeys])),
+                    Some(Hinges::Storeys(vec![spring; storeys])),
                 )
             })
             .collect();
@@ -135,14 +135,14 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
             .map(|&(storeys, properties, width)| {
                 let plan = rectangle(x, 0.0, width, 10.0);
                 x += width + 0.02;
-                let own = tiers(storeys, properties, &plan, [0.0; 2], rule);
-                building("space", Structure::Tiers(own), None)
+                let tiers = tiers(storeys, properties, &plan, [0.0; 2], rule);
+                building("space", Structure::Tiers(tiers), None)
             })
             .collect();
         let name = |mut list: Vec<Building>| {
             list.iter_mut()
                 .zip(["A", "B"])
-                .for_each(|(own, name)| own.name = name.to_owned());
+                .for_each(|(building, name)| building.name = name.to_owned());
             list
         };
         let gap = || vec![Gap::after(0, 0.02, CONCRETE)];
@@ -160,8 +160,8 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
             let floors = flat.peaks.buildings().flatten();
             floors.map(|floor| of(&floor)).fold(0.0, f64::max)
         };
-        for (own, other) in flat.peaks.buildings().zip(deep.peaks.buildings()) {
-            for (a, b) in own.iter().zip(&other) {
+        for (building, other) in flat.peaks.buildings().zip(deep.peaks.buildings()) {
+            for (a, b) in building.iter().zip(&other) {
                 let u = most(&|f| f.displacement_max().value);
                 close(
                     a.displacement_max().value,
@@ -207,8 +207,8 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
             }
         }
         // Springs along x have the loops of the storeys of the plane.
-        let (own, other) = (spring_forces(&flat), spring_forces(&deep));
-        for (a, b) in own.iter().zip(other.iter().step_by(2)) {
+        let (one, other) = (spring_forces(&flat), spring_forces(&deep));
+        for (a, b) in one.iter().zip(other.iter().step_by(2)) {
             close(*a, *b, *a, "force");
         }
         let works = |run: &Outcome| {
@@ -216,9 +216,9 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
             let works = springs.map(|spring| run.peaks.work(Owner::Spring(spring)));
             works.collect::<Vec<f64>>()
         };
-        let (own, other) = (works(&flat), works(&deep));
-        for (a, b) in own.iter().zip(other.iter().step_by(2)) {
-            close(*a, *b, largest(&own), "work");
+        let (one, other) = (works(&flat), works(&deep));
+        for (a, b) in one.iter().zip(other.iter().step_by(2)) {
+            close(*a, *b, largest(&one), "work");
         }
         assert_eq!(system.buildings[0].equations.springs.len(), 10);
     }
@@ -262,13 +262,13 @@ fn eccentric_storey() -> (Model, Vec<([f64; 3], f64, f64)>) {
         element_names: vec![None; 4],
         ..Tiers::default()
     };
-    let mut own = building("eccentric", Structure::Tiers(tiers), None);
-    own.damping = Damping::Rayleigh {
+    let mut building = building("eccentric", Structure::Tiers(tiers), None);
+    building.damping = Damping::Rayleigh {
         alpha: 0.6,
         beta: 0.0,
     };
-    own.gravity = Gravity::default();
-    let mut model = model(vec![own], Vec::new());
+    building.gravity = Gravity::default();
+    let mut model = model(vec![building], Vec::new());
     model.analysis.contact_step = None;
     (model, rows)
 }
@@ -313,8 +313,8 @@ fn by_runge_kutta(
         for (index, (row, stiffness, _)) in rows.iter().enumerate() {
             let d = deformation(row, u);
             let p = slip(index, u, slips[index]);
-            let own = stiffness * (HARDENING * d + (1.0 - HARDENING) * (d - p));
-            (0..3).for_each(|k| force[k] += row[k] * own);
+            let spring_force = stiffness * (HARDENING * d + (1.0 - HARDENING) * (d - p));
+            (0..3).for_each(|k| force[k] += row[k] * spring_force);
         }
         let a = ground(t);
         std::array::from_fn(|k| -force[k] / masses[k] - alpha * v[k] - a[k])
@@ -337,10 +337,10 @@ fn by_runge_kutta(
             v[k] += step / 6.0 * (a1[k] + 2.0 * a2[k] + 2.0 * a3[k] + a4[k]);
             peaks[k] = peaks[k].max(u[k].abs());
         }
-        for (index, own) in slips.iter_mut().enumerate() {
-            *own = slip(index, &u, *own);
+        for (index, plastic_slip) in slips.iter_mut().enumerate() {
+            *plastic_slip = slip(index, &u, *plastic_slip);
             let (_, stiffness, limit) = rows[index];
-            taken += (1.0 - HARDENING) * stiffness * limit * (*own - before[index]).abs();
+            taken += (1.0 - HARDENING) * stiffness * limit * (*plastic_slip - before[index]).abs();
         }
     }
     for ((row, stiffness, _), slip) in rows.iter().zip(&slips) {
@@ -365,12 +365,13 @@ fn an_eccentric_storey_yields_as_integrated_on_its_own() {
     model.analysis.step = Some(5e-5);
     let (_, outcome) = run(&model, &motion);
     let floor = outcome.peaks.floor(0, 1);
-    let found = [floor, floor.across(), floor.turning()].map(|own| own.displacement().size());
+    let found =
+        [floor, floor.across(), floor.turning()].map(|direction| direction.displacement().size());
     assert!(expected[2] > 1e-3 && taken > 1e4, "{expected:?}, {taken} J");
-    for (own, expected) in found.iter().zip(expected) {
+    for (size, expected) in found.iter().zip(expected) {
         assert!(
-            (own / expected - 1.0).abs() < 2e-5,
-            "{own} against {expected}"
+            (size / expected - 1.0).abs() < 2e-5,
+            "{size} against {expected}"
         );
     }
     let springs = 0..outcome.state.springs.len();
@@ -392,7 +393,7 @@ fn a_turned_site_yields_the_same() {
         rectangle(0.0, 0.0, 12.0, 10.0),
         rectangle(12.015, 2.0, 9.0, 7.0),
     ];
-    let own = |turned: bool| -> Vec<Building> {
+    let buildings = |turned: bool| -> Vec<Building> {
         let parts = [
             (3, [150e3, 60e6], [1.0, -0.5]),
             (2, [100e3, 150e6], [-0.4, 0.3]),
@@ -430,8 +431,8 @@ fn a_turned_site_yields_the_same() {
     let motion = bearing(shaking("along", 7.0, 1.5), shaking("across", 5.3, 1.2));
     let mut turned_motion = motion.clone();
     turned_motion.bearing.as_mut().expect("a bearing").angle += 0.5 * PI;
-    let (_, one) = run(&model(own(false), gap()), &motion);
-    let (_, other) = run(&model(own(true), gap()), &turned_motion);
+    let (_, one) = run(&model(buildings(false), gap()), &motion);
+    let (_, other) = run(&model(buildings(true), gap()), &turned_motion);
     assert!(one.impacts.len() > 10 && one.energy.hysteretic > 1e4);
     assert_eq!(one.impacts.len(), other.impacts.len());
     assert!(
@@ -441,10 +442,10 @@ fn a_turned_site_yields_the_same() {
     );
     let floors = |run: &Outcome, direction: Direction| -> Vec<[f64; 3]> {
         let all = run.peaks.buildings().flatten();
-        let of = |own: PeaksOf<'_>| {
-            let turned = own.turning().displacement_max().value;
-            let shear = own.to(direction).storey_shear();
-            [turned, own.corner_displacement(), shear]
+        let of = |peaks: PeaksOf<'_>| {
+            let turned = peaks.turning().displacement_max().value;
+            let shear = peaks.to(direction).storey_shear();
+            [turned, peaks.corner_displacement(), shear]
         };
         all.map(of).collect()
     };
@@ -517,8 +518,12 @@ fn frame(floor_mass: f64) -> (Frame, FrameHinges) {
 /// Two equal frames at either side of a plan carry half of it each, as one plane frame does, hinge by hinge.
 #[test]
 fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
-    let (own, hinges) = frame(80e3);
-    let mut plane = building("frame", Structure::Frame(own), Some(Hinges::Frame(hinges)));
+    let (heavy, hinges) = frame(80e3);
+    let mut plane = building(
+        "frame",
+        Structure::Frame(heavy),
+        Some(Hinges::Frame(hinges)),
+    );
     plane.gravity = Gravity::default();
     let (light, hinges) = frame(0.0);
     let standing =
@@ -547,8 +552,8 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
     let mut space = building("frames", Structure::Tiers(tiers), None);
     space.gravity = Gravity::default();
     let motion = shaking("along", 4.0, 0.8);
-    let with = |own: Building| {
-        let mut model = model(vec![own], Vec::new());
+    let with = |building: Building| {
+        let mut model = model(vec![building], Vec::new());
         model.analysis.contact_step = None;
         model.analysis.solver = Some(Solver::Riccati);
         model.analysis.members = MemberRequest::all();
@@ -564,17 +569,17 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
         same(a.displacement_max().value, b.displacement_max().value, "u");
         same(2.0 * a.storey_shear(), b.storey_shear(), "shear");
     }
-    let (own, other) = (spring_forces(&flat), spring_forces(&deep));
-    assert_eq!(other.len(), 2 * own.len());
-    for (own, other) in own.iter().cycle().zip(&other) {
-        same(*own, *other, "moment");
+    let (one, other) = (spring_forces(&flat), spring_forces(&deep));
+    assert_eq!(other.len(), 2 * one.len());
+    for (building, other) in one.iter().cycle().zip(&other) {
+        same(*building, *other, "moment");
     }
     // Members of the first frame have the forces of those of the plane one, moments of hinges included; beams have no axial force.
-    let own = system.buildings[0].members.members.iter();
-    let own: Vec<_> = own.filter(|member| member.frame == Some(0)).collect();
+    let members = system.buildings[0].members.members.iter();
+    let members: Vec<_> = members.filter(|member| member.frame == Some(0)).collect();
     let of_plane = &plane.buildings[0].members.members;
-    assert_eq!(own.len(), of_plane.len());
-    for (member, other) in own.into_iter().zip(of_plane) {
+    assert_eq!(members.len(), of_plane.len());
+    for (member, other) in members.into_iter().zip(of_plane) {
         assert_eq!(member.place, other.place);
         let kinds = if other.place.is_column() { 0..3 } else { 1..3 };
         for (section, of_plane) in member.sections.iter().zip(&other.sections) {

@@ -105,8 +105,8 @@ impl Grid<'_> {
             members: Vec::new(),
             ..SpaceFrame::default()
         };
-        let own = members.into_iter().map(|place| self.member(&frame, place));
-        frame.members = own.collect();
+        let members = members.into_iter().map(|place| self.member(&frame, place));
+        frame.members = members.collect();
         frame
     }
 
@@ -134,7 +134,7 @@ impl Grid<'_> {
         let mut hinges = [None; 2];
         for plane in 0..2 {
             let stiffness = initial * section.flexural_rigidity[plane] / length;
-            hinges[plane] = moments[plane].map(|own| hinge(rule, stiffness, own));
+            hinges[plane] = moments[plane].map(|moment| hinge(rule, stiffness, moment));
         }
         SpaceMember {
             place,
@@ -233,9 +233,11 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
         let grid = pair_of_frames(MOMENTS, axial);
         let space = grid.tiers(90e3);
         let frame = space.space_frame.as_ref().expect("a space frame");
-        let own = |place: SpacePlace| {
+        let properties = |place: SpacePlace| {
             let mut members = frame.members.iter();
-            let member = members.find(|own| own.place == place).expect("a member");
+            let member = members
+                .find(|member| member.place == place)
+                .expect("a member");
             let section = Section {
                 flexural_rigidity: member.section.flexural_rigidity[0],
                 axial_rigidity: member.section.axial_rigidity.or(Some(1e9)),
@@ -245,13 +247,13 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
             (section, member.hinges[0].expect("a hinge"))
         };
         let column = |line: usize, storey: usize| {
-            own(SpacePlace::Column {
+            properties(SpacePlace::Column {
                 line: [line, 0],
                 storey,
             })
         };
         let beam = |span: usize, floor: usize| {
-            own(SpacePlace::BeamX {
+            properties(SpacePlace::BeamX {
                 span,
                 line: 0,
                 floor,
@@ -298,12 +300,12 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
         };
         let motion = shaking("along", 4.0, 1.0);
         let with_members = |tiers: Tiers| {
-            let mut own = model(
+            let mut model = model(
                 vec![building("A", Structure::Tiers(tiers), None)],
                 Vec::new(),
             );
-            own.analysis.members = MemberRequest::all();
-            run(&own, &motion, Some(0.02))
+            model.analysis.members = MemberRequest::all();
+            run(&model, &motion, Some(0.02))
         };
         let (of_space, a) = with_members(space);
         let (of_plane, b) = with_members(plane);
@@ -318,11 +320,11 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
             1e-8,
             "V",
         );
-        for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
-            close(most(own), most(other), most(other), 1e-8, "displacement");
-            let shears = [own.storey_shear(), other.storey_shear()];
+        for (floor, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+            close(most(floor), most(other), most(other), 1e-8, "displacement");
+            let shears = [floor.storey_shear(), other.storey_shear()];
             close(shears[0], shears[1], shears[1], 1e-8, "storey shear");
-            let moments = [own.overturning_moment(), other.overturning_moment()];
+            let moments = [floor.overturning_moment(), other.overturning_moment()];
             close(moments[0], moments[1], moments[1], 1e-8, "moment");
         }
         for floor in a.peaks.buildings().flatten() {
@@ -331,7 +333,7 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
             }
         }
         // Peaks of members on the first line are those of the first plane frame.
-        let (own, other) = (&of_space.buildings[0], &of_plane.buildings[0]);
+        let (one, other) = (&of_space.buildings[0], &of_plane.buildings[0]);
         let mut compared = 0;
         for member in other.members.members.iter().filter(|m| m.frame == Some(0)) {
             let wanted = match member.place {
@@ -346,8 +348,8 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
                 },
                 MemberPlace::InSpace(_) => panic!("a plane frame"),
             };
-            let mut members = own.members.members.iter();
-            let same = members.find(|own| own.place == MemberPlace::InSpace(wanted));
+            let mut members = one.members.members.iter();
+            let same = members.find(|member| member.place == MemberPlace::InSpace(wanted));
             let same = same.expect("the same member");
             for (section, of_plane) in same.sections.iter().zip(&member.sections) {
                 for (form, other) in section.forms.iter().zip(of_plane.forms) {
@@ -365,16 +367,16 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
 fn turned(tiers: &Tiers, angle: f64) -> Tiers {
     let (s, c) = angle.sin_cos();
     let turn = |[x, y]: PlanPoint| [c * x - s * y, s * x + c * y];
-    let mut own = tiers.clone();
-    for floor in &mut own.floors {
+    let mut tiers = tiers.clone();
+    for floor in &mut tiers.floors {
         floor.centre = turn(floor.centre);
         floor
             .plan
             .iter_mut()
             .for_each(|corner| *corner = turn(*corner));
     }
-    own.space_frame.as_mut().expect("a frame").direction = [c, s];
-    own
+    tiers.space_frame.as_mut().expect("a frame").direction = [c, s];
+    tiers
 }
 
 /// Turned by 30° with its shaking, a frame yields alike; histories of the floors turn with it.
@@ -403,13 +405,13 @@ fn a_turned_site_yields_the_same() {
         "energy",
     );
     let (forces, others) = (spring_forces(&a), spring_forces(&b));
-    for (own, other) in forces.iter().zip(&others) {
-        close(*other, *own, *own, 1e-8, "moment");
+    for (force, other) in forces.iter().zip(&others) {
+        close(*other, *force, *force, 1e-8, "moment");
     }
-    for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
-        let (own, other) = (most(&own.turning()), most(&other.turning()));
-        assert!(own > 1e-4, "it turns");
-        close(other, own, own, 1e-8, "rotation");
+    for (floor, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+        let (one, other) = (most(&floor.turning()), most(&other.turning()));
+        assert!(one > 1e-4, "it turns");
+        close(other, one, one, 1e-8, "rotation");
     }
     assert_eq!(forces.len(), system.buildings[0].equations.springs.len());
     // Columns in two planes at two ends; beams in one.
@@ -419,7 +421,7 @@ fn a_turned_site_yields_the_same() {
 /// With x and y exchanged everywhere, so are the displacements.
 #[test]
 fn a_portal_yields_across_as_along() {
-    let own = |swap: bool| {
+    let tiers = |swap: bool| {
         let moments = Moments {
             columns: if swap {
                 [Some(130e3), Some(160e3)]
@@ -445,8 +447,8 @@ fn a_portal_yields_across_as_along() {
         Structure::Tiers(grid.tiers(120e3))
     };
     let motion = |angle: f64| bearing(shaking("along", 5.0, 1.3), angle, None);
-    let (_, a) = single(own(false), &motion(0.0));
-    let (_, b) = single(own(true), &motion(0.5 * PI));
+    let (_, a) = single(tiers(false), &motion(0.0));
+    let (_, b) = single(tiers(true), &motion(0.5 * PI));
     assert!(a.energy.hysteretic > 1e4);
     let (along, across) = (
         most(&a.peaks.floor(0, 1)),
@@ -472,7 +474,7 @@ fn cantilevers(lines: [&[f64]; 2], moments: Moments) -> SpaceFrame {
     let mut frame = grid.frame();
     frame
         .members
-        .retain(|own| matches!(own.place, SpacePlace::Column { .. }));
+        .retain(|member| matches!(member.place, SpacePlace::Column { .. }));
     frame
 }
 
@@ -501,7 +503,7 @@ const BILINEAR: Moments = Moments {
 fn cantilevers_yield_in_each_direction_as_in_the_plane() {
     let frame = cantilevers([&[0.0, 6.0], &[0.0]], BILINEAR);
     let section = frame.members[0].section;
-    let hinges = frame.members[0].hinges.map(|own| own.expect("a hinge"));
+    let hinges = frame.members[0].hinges.map(|hinge| hinge.expect("a hinge"));
     let plan = vec![[-1.0, -2.0], [7.0, -2.0], [7.0, 2.0], [-1.0, 2.0]];
     let tier = Tier::uniform(60e3, plan).expect("an area");
     let tiers = held_by(frame, vec![tier], &[HEIGHT]);
@@ -511,10 +513,10 @@ fn cantilevers_yield_in_each_direction_as_in_the_plane() {
     assert!(most(&space.peaks.floor(0, 1).turning()) < 1e-12);
     let found = [&space.peaks.floor(0, 1), &space.peaks.floor(0, 1).across()];
     for axis in 0..2 {
-        let own = in_series(section.flexural_rigidity[axis], &hinges[axis]);
-        let doubled = own.backbone().initial() * 2.0;
-        let yielding = own.backbone().side(jostle::hysteresis::Side::Positive);
-        let ratio = yielding.post_yield / own.backbone().initial();
+        let series = in_series(section.flexural_rigidity[axis], &hinges[axis]);
+        let doubled = series.backbone().initial() * 2.0;
+        let yielding = series.backbone().side(jostle::hysteresis::Side::Positive);
+        let ratio = yielding.post_yield / series.backbone().initial();
         let corners = Corners::bilinear(2.0 * yielding.yielding.force, ratio);
         let backbone = Backbone::from_forces(doubled, corners, corners).expect("sound");
         let storey = Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("sound");
@@ -533,7 +535,7 @@ fn cantilevers_yield_in_each_direction_as_in_the_plane() {
         let floor = &plane.peaks.floor(0, 1);
         assert!(plane.energy.hysteretic > 1e3);
         close(most(found[axis]), most(floor), most(floor), 1e-9, "u");
-        let times = [found[axis], floor].map(|own| own.displacement_max().at);
+        let times = [found[axis], floor].map(|peaks| peaks.displacement_max().at);
         close(times[0], times[1], 1.0, 1e-9, "time");
     }
 }
@@ -543,13 +545,13 @@ fn cantilevers_yield_in_each_direction_as_in_the_plane() {
 #[test]
 fn an_eccentric_storey_yields_as_springs_at_points_of_the_plan() {
     let mut frame = cantilevers([&[0.0, 6.0], &[0.0, 5.0]], BILINEAR);
-    for (index, own) in frame.members.iter_mut().enumerate() {
+    for (index, member) in frame.members.iter_mut().enumerate() {
         let factor = 1.0 + 0.35 * index as f64;
         for plane in 0..2 {
-            own.section.flexural_rigidity[plane] *= factor;
-            let stiffness = INITIAL * own.section.flexural_rigidity[plane] / HEIGHT;
+            member.section.flexural_rigidity[plane] *= factor;
+            let stiffness = INITIAL * member.section.flexural_rigidity[plane] / HEIGHT;
             let yielding = BILINEAR.columns[plane].expect("yields") * factor.sqrt();
-            own.hinges[plane] = Some(hinge(HysteresisRule::Bilinear, stiffness, yielding));
+            member.hinges[plane] = Some(hinge(HysteresisRule::Bilinear, stiffness, yielding));
         }
     }
     let plan = vec![[0.0, 0.0], [6.0, 0.0], [6.0, 5.0], [0.0, 5.0]];
@@ -557,17 +559,17 @@ fn an_eccentric_storey_yields_as_springs_at_points_of_the_plan() {
     tier.centre = [2.6, 2.9];
     let mut springs = Vec::new();
     let mut torsion = 0.0;
-    for (index, own) in frame.members.iter().enumerate() {
-        let [line, _] = own.place.crossings();
-        torsion += own.section.torsional_rigidity / HEIGHT;
+    for (index, member) in frame.members.iter().enumerate() {
+        let [line, _] = member.place.crossings();
+        torsion += member.section.torsional_rigidity / HEIGHT;
         springs.extend(PlanAxis::BOTH.map(|axis| {
-            let hinge = own.hinges[axis.index()].expect("a hinge");
+            let hinge = member.hinges[axis.index()].expect("a hinge");
             PlanSpring {
                 element: Some(index),
                 storey: 0,
                 at: frame.point(line),
                 axis,
-                hysteresis: in_series(own.section.flexural_rigidity[axis.index()], &hinge),
+                hysteresis: in_series(member.section.flexural_rigidity[axis.index()], &hinge),
             }
         }));
     }
@@ -587,13 +589,13 @@ fn an_eccentric_storey_yields_as_springs_at_points_of_the_plan() {
     let motion = bearing(shaking("along", 4.0, 1.1), 0.3, Some(across));
     let (_, a) = single(Structure::Tiers(of_columns), &motion);
     let (_, b) = single(Structure::Tiers(of_springs), &motion);
-    let peaks = |own: &Outcome| {
-        let floor = own.peaks.floor(0, 1);
-        [floor, floor.across(), floor.turning()].map(|own| most(&own))
+    let peaks = |outcome: &Outcome| {
+        let floor = outcome.peaks.floor(0, 1);
+        [floor, floor.across(), floor.turning()].map(|direction| most(&direction))
     };
-    for (own, expected) in peaks(&a).into_iter().zip(peaks(&b)) {
+    for (peak, expected) in peaks(&a).into_iter().zip(peaks(&b)) {
         assert!(expected > 1e-3, "{expected}");
-        close(own, expected, expected, 1e-9, "peak");
+        close(peak, expected, expected, 1e-9, "peak");
     }
     assert!(b.energy.hysteretic > 1e4 && a.energy.worst_imbalance < 1e-9);
     close(
@@ -622,36 +624,36 @@ fn hinges_that_do_not_yield_leave_the_elastic_frame() {
     let across = shaking("across", 5.0, 0.7);
     let motion = bearing(shaking("along", 4.0, 1.0), 0.2, Some(across));
     for axial in [true, false] {
-        let own = |moments: Moments| {
+        let tiers = |moments: Moments| {
             let mut tiers = pair_of_frames(moments, axial).tiers(90e3);
             tiers.floors[0].centre = [6.2, 2.1];
             Structure::Tiers(tiers)
         };
-        let (of_hinges, a) = single(own(never), &motion);
-        let (of_none, b) = single(own(elastic), &motion);
-        for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
-            close(most(own), most(other), most(other), 1e-6, "u");
+        let (of_hinges, a) = single(tiers(never), &motion);
+        let (of_none, b) = single(tiers(elastic), &motion);
+        for (floor, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+            close(most(floor), most(other), most(other), 1e-6, "u");
         }
-        for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
-            let (own, other) = (most(&own.turning()), most(&other.turning()));
-            close(own, other, other, 1e-6, "rotation");
+        for (floor, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+            let (one, other) = (most(&floor.turning()), most(&other.turning()));
+            close(one, other, other, 1e-6, "rotation");
         }
         let modes = of_hinges.buildings[0].modes.iter();
-        for (own, other) in modes.zip(&of_none.buildings[0].modes) {
+        for (mode, other) in modes.zip(&of_none.buildings[0].modes) {
             let expected = other.circular_frequency;
-            close(own.circular_frequency, expected, expected, 1e-7, "mode");
+            close(mode.circular_frequency, expected, expected, 1e-7, "mode");
         }
         assert_eq!(of_hinges.buildings[0].modes.len(), 6);
         // By modes the elastic frame answers alike, within its tolerance.
-        let mut by_modes = model(vec![building("A", own(elastic), None)], Vec::new());
+        let mut by_modes = model(vec![building("A", tiers(elastic), None)], Vec::new());
         by_modes.analysis = Analysis {
             solver: Some(Solver::Modal),
             tolerance: 1e-4,
             ..Analysis::default()
         };
         let (_, modal) = run(&by_modes, &motion, Some(0.02));
-        for (own, other) in a.peaks.floors(0).iter().zip(&modal.peaks.floors(0)) {
-            close(most(own), most(other), most(other), 3e-3, "by modes");
+        for (floor, other) in a.peaks.floors(0).iter().zip(&modal.peaks.floors(0)) {
+            close(most(floor), most(other), most(other), 3e-3, "by modes");
         }
     }
 }
@@ -699,8 +701,8 @@ fn joints_are_in_equilibrium_while_yielding_frames_pound() {
         let places = &assembled.buildings[index].discretization.spring_places;
         let again = |place| places.iter().filter(|other| *other == place).count();
         assert!(places.iter().all(|place| again(place) == 1), "{places:?}");
-        let own = assembled.buildings[index].members.members.iter();
-        let names = own.map(|member| format!("{name}.{}", member.place));
+        let members = assembled.buildings[index].members.members.iter();
+        let names = members.map(|member| format!("{name}.{}", member.place));
         model.analysis.members.histories.extend(names);
     }
     let across = shaking("across", 5.0, 0.7);
@@ -715,8 +717,8 @@ fn joints_are_in_equilibrium_while_yielding_frames_pound() {
     );
     let history = outcome.member_history.as_ref().expect("asked for");
     let mut first = 0;
-    for own in &system.buildings {
-        let places: Vec<SpacePlace> = own
+    for building in &system.buildings {
+        let places: Vec<SpacePlace> = building
             .members
             .members
             .iter()
@@ -732,7 +734,7 @@ fn joints_are_in_equilibrium_while_yielding_frames_pound() {
                 .zip(rows)
                 .map(|(place, ends)| (*place, [ends[0], ends[1]]))
                 .collect();
-            check_joints(&members, &format!("{}, instant {instant}", own.name));
+            check_joints(&members, &format!("{}, instant {instant}", building.name));
         }
         first += places.len();
     }
@@ -783,17 +785,17 @@ fn both_direct_solvers_agree_and_modes_are_refused() {
     let motion = shaking("along", 4.0, 1.0);
     let tiers = pair_of_frames(MOMENTS, true).tiers(90e3);
     let with = |solver: Solver| {
-        let mut own = model(
+        let mut model = model(
             vec![building("A", Structure::Tiers(tiers.clone()), None)],
             Vec::new(),
         );
-        own.analysis.solver = Some(solver);
-        own
+        model.analysis.solver = Some(solver);
+        model
     };
     let (_, a) = run(&with(Solver::Riccati), &motion, Some(0.02));
     let (_, b) = run(&with(Solver::Stiffness), &motion, Some(0.02));
-    for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
-        close(most(own), most(other), most(other), 1e-9, "u");
+    for (floor, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+        close(most(floor), most(other), most(other), 1e-9, "u");
     }
     let refused = with(Solver::Modal);
     let system = runs::assembled(&refused);
@@ -813,7 +815,7 @@ fn hinges_about_the_weak_axis_of_a_beam_are_refused() {
     let beam = frame
         .members
         .iter_mut()
-        .find(|own| matches!(own.place, SpacePlace::BeamX { .. }))
+        .find(|member| matches!(member.place, SpacePlace::BeamX { .. }))
         .expect("a beam");
     beam.hinges[1] = beam.hinges[0];
     let model = model(

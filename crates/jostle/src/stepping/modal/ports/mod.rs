@@ -134,10 +134,10 @@ impl<'a> PortRun<'a> {
         for contact in &system.contacts {
             let mut row = vec![0.0; modes];
             for (port, sign) in contact.ports.sides() {
-                let own = &reduced.buildings[port.building];
+                let building = &reduced.buildings[port.building];
                 let local = port.row.moved_down(system.buildings[port.building].offset);
-                let shown = own.basis.of_shapes(|vector| local.value(vector));
-                for (value, shown) in row[own.modes.clone()].iter_mut().zip(shown) {
+                let shown = building.basis.of_shapes(|vector| local.value(vector));
+                for (value, shown) in row[building.modes.clone()].iter_mut().zip(shown) {
                     *value = -sign * shown;
                 }
             }
@@ -157,12 +157,13 @@ impl<'a> PortRun<'a> {
         let fine = (0..FINEST)
             .find(|level| interval / (1_u64 << level) as f64 <= shortest / STEPS_PER_COLLISION);
         let mut floors = Vec::new();
-        for (index, own) in reduced.buildings.iter().enumerate() {
+        for (index, reduced_building) in reduced.buildings.iter().enumerate() {
             let building = &system.buildings[index];
             for floor in &building.floors {
                 let dof = floor.dof - building.offset;
                 let mut row = vec![0.0; modes];
-                row[own.modes.clone()].copy_from_slice(&own.basis.of_shapes(|v| v[dof]));
+                row[reduced_building.modes.clone()]
+                    .copy_from_slice(&reduced_building.basis.of_shapes(|v| v[dof]));
                 floors.push((index, row));
             }
         }
@@ -251,13 +252,13 @@ impl<'a> PortRun<'a> {
     fn pass(&mut self, level: usize, start: f64, part: u64, grounds: [f64; 2]) -> bool {
         let parts = (1_u64 << level) as f64;
         let ground = |at: f64| grounds[0] + (grounds[1] - grounds[0]) * at / parts;
-        let own = [ground(part as f64), ground(part as f64 + 1.0)];
-        self.move_freely(level, own);
+        let part_grounds = [ground(part as f64), ground(part as f64 + 1.0)];
+        self.move_freely(level, part_grounds);
         let settled = self.iterate(level);
         // Where forces jump, the finest steps may miss the estimate; what has not settled is never accepted.
-        if settled && (level == FINEST || self.is_accurate(level, own)) {
+        if settled && (level == FINEST || self.is_accurate(level, part_grounds)) {
             let at = start + self.interval * part as f64 / parts;
-            self.accept(level, at, own[1]);
+            self.accept(level, at, part_grounds[1]);
             return true;
         }
         self.outcome.halved += 1;
@@ -348,12 +349,12 @@ impl<'a> PortRun<'a> {
                 let lightness = self.rows.at_once[one * count + one];
                 let port = &mut self.ports[one];
                 let (moments, force) = (port.moments, port.end_force);
-                let mut own = influence.map(|factors| {
+                let mut products = influence.map(|factors| {
                     let products = factors.iter().zip(moments).map(|(a, b)| a * b);
                     products.sum::<f64>()
                 });
-                own[2] -= lightness * force;
-                port.follow(step, self.ends[one], own, lightness);
+                products[2] -= lightness * force;
+                port.follow(step, self.ends[one], products, lightness);
                 let share = match iteration {
                     QUARTERED_FROM.. => 0.25,
                     HALVED_FROM.. => 0.5,
@@ -400,14 +401,14 @@ impl<'a> PortRun<'a> {
                         + factors[1][mode] * self.velocity[mode]
                         - driven * (factors[2][mode] * middle[0] + factors[3][mode] * middle[1]));
             }
-            let mut own = 0.0;
+            let mut self_motion = 0.0;
             for (other, port) in self.ports.iter().enumerate() {
                 let factors = &self.middles[level][one * count + other];
                 let products = factors.iter().zip(port.moments).map(|(a, b)| a * b);
                 let moved: f64 = products.sum();
                 exact += moved;
                 if other == one {
-                    own = moved;
+                    self_motion = moved;
                 }
             }
             let gap = self.system.contacts[one].gap;
@@ -427,7 +428,7 @@ impl<'a> PortRun<'a> {
                     0.0
                 };
                 let before = if piece.touches {
-                    (exact - own - port.open.value(0.5)).abs()
+                    (exact - self_motion - port.open.value(0.5)).abs()
                 } else {
                     0.0
                 };

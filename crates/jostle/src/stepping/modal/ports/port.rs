@@ -89,9 +89,19 @@ impl Port {
     }
 
     /// Finds pieces, moments and the force at the end, from the motion at the end of a step of length `step` with the forces
-    /// of before, `own` what its own moments are of it, and `lightness` its acceleration by a unit force \[1/kg\].
-    pub(super) fn follow(&mut self, step: f64, end: [f64; 3], own: [f64; 3], lightness: f64) {
-        let without = [end[0] - own[0], end[1] - own[1], end[2] - own[2]];
+    /// of before, `self_motion` what its moments are of it, and `lightness` its acceleration by a unit force \[1/kg\].
+    pub(super) fn follow(
+        &mut self,
+        step: f64,
+        end: [f64; 3],
+        self_motion: [f64; 3],
+        lightness: f64,
+    ) {
+        let without = [
+            end[0] - self_motion[0],
+            end[1] - self_motion[1],
+            end[2] - self_motion[2],
+        ];
         self.open = Path::between(0.0, step, self.start, without);
         self.pieces = [None; MOST_PIECES];
         self.overflows = false;
