@@ -278,6 +278,8 @@ class Shear(Part):
             With a plan, ``length`` is along x, and ``"torsional_stiffness"`` replaces that of the soil.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
+        rotation_limit: of frames at lines of the plan, rotations of hinges at which members reach levels of performance:
+            ``[{"of": "columns", "limits": {"io": "5 mrad", "ls": "15 mrad", "cp": "20 mrad"}}]``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
@@ -328,6 +330,7 @@ class Shear(Part):
         isolation: Table | None = None,
         foundation: Table | None = None,
         hinges: Table | None = None,
+        rotation_limit: Sequence[Table] | None = None,
         elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
@@ -359,6 +362,7 @@ class Shear(Part):
                 "isolation": isolation,
                 "foundation": foundation,
                 "hinges": hinges,
+                "rotation_limit": rotation_limit,
                 "elevation": elevation,
                 "position": position,
                 "motion": motion,
@@ -599,6 +603,7 @@ class Given(Part):
             matrix.
         damper: dampers and other links between two floors of this building, such as
             ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
+        rotation_limit: limits of rotation of hinges, of which a building given by matrices has none.
         soil_spring: soil beside floors below ground, of buildings in one plane alone.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
@@ -639,6 +644,7 @@ class Given(Part):
         storey_height: Quantities | None = None,
         damping: Table | None = None,
         damper: Sequence[Table] | None = None,
+        rotation_limit: Sequence[Table] | None = None,
         soil_spring: Sequence[Table] | None = None,
         elevation: Quantity | None = None,
         position: Quantity | None = None,
@@ -667,6 +673,7 @@ class Given(Part):
                 "storey_height": storey_height,
                 "damping": damping,
                 "damper": damper,
+                "rotation_limit": rotation_limit,
                 "soil_spring": soil_spring,
                 "elevation": elevation,
                 "position": position,

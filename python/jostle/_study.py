@@ -493,8 +493,9 @@ class CriticalGap:
         closing_without_contact: peak closing of the buildings without contact [m].
         rules: gaps required by rules and codes.
         left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
-        curve: force and impacts over the gap, from zero to ``gap``; empty unless asked for.
+        curve: force and impacts over the gap, from zero to the smallest gap of both signs; empty unless asked for.
         reversed_gap: smallest gap without an impact under the motion with the other sign [m].
+        reversed_curve: ``curve`` under the motion with the other sign.
 
     Examples:
         >>> import jostle
@@ -513,6 +514,7 @@ class CriticalGap:
     left_out: tuple[tuple[str, str], ...] = ()
     curve: tuple[GapPoint, ...] = ()
     reversed_gap: float | None = None
+    reversed_curve: tuple[GapPoint, ...] = ()
 
     def _repr_html_(self) -> str:
         from ._draw import gap_html
@@ -592,20 +594,18 @@ def critical_gap(
                     gap["closing_without_contact_m"],
                     rules,
                     tuple((rule["rule"], rule["needs"]) for rule in gap["left_out"]),
-                    tuple(
-                        GapPoint(
-                            point["width_m"],
-                            point["impact_count"],
-                            point["peak_force_n"],
-                            point["first_impact_s"],
-                            point["met"],
-                        )
-                        for point in gap.get("curve", ())
-                    ),
+                    _points(gap.get("curve", ())),
                     gap["reversed_gap_m"],
+                    _points(gap.get("reversed_curve", ())),
                 )
             )
     return found
+
+
+def _points(curve: Sequence[Mapping[str, Any]]) -> tuple[GapPoint, ...]:
+    """Points of a curve over the gap."""
+    names = ("width_m", "impact_count", "peak_force_n", "first_impact_s", "met")
+    return tuple(GapPoint(*(point[name] for name in names)) for point in curve)
 
 
 #: The study that this process computes parts of, by its bytes.

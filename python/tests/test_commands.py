@@ -359,6 +359,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--minimise": "minimise",
             "--record": "motions",
             "--pga": "pga",
+            "--both-signs": "both_signs",
             "--over": "over",
             "--seed": "seed",
             "--trials": "trials",

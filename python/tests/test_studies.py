@@ -117,7 +117,12 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
     widths = {rule.rule: rule.gap for rule in gap.rules}
     assert widths["SRSS"] <= widths["ABS"] and widths["ABS"] >= gap.gap
     (curve,) = jostle.critical_gap(towers(), outcomes=False, curve=5)
-    assert [point.width for point in curve.curve] == pytest.approx([0.25 * n * gap.gap for n in range(5)])
+    # Both curves end where neither sign leads to an impact.
+    assert gap.reversed_gap is not None
+    end = max(gap.gap, gap.reversed_gap + 0.5e-4)
+    for points in (curve.curve, curve.reversed_curve):
+        assert [point.width for point in points] == pytest.approx([0.25 * n * end for n in range(5)])
+        assert points[-1].impact_count == 0
     assert curve.curve[0].impact_count > 0 and curve.curve[0].peak_force > 0
     assert (curve.curve[-1].impact_count, curve.curve[-1].first_impact) == (0, None)
     with pytest.raises(jostle.ModelError, match="curve: must be"):

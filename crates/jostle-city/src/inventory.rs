@@ -163,7 +163,7 @@ impl<'a> Gathered<'a> {
                     }
                 }
                 Attribute::Height => {
-                    building.height = Some(number()?).filter(|number| *number > 0.0)
+                    building.height = Some(number()?).filter(|number| *number > 0.0);
                 }
                 Attribute::Year => {
                     // A date such as 1931-05 is a year too.

@@ -243,7 +243,8 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 // Found from the sizes of members that meet: not in the file.
                 _ if row.get("Type") == Some(&"Automatic") => member.moved = rigid != 0.0,
                 _ => {
-                    member.stiff_ends = lengths.map(|offset| offset.unwrap_or(0.0) * length * rigid)
+                    member.stiff_ends =
+                        lengths.map(|offset| offset.unwrap_or(0.0) * length * rigid);
                 }
             }
         }

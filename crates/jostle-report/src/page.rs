@@ -34,10 +34,20 @@ pub(crate) const IN_SPACE: [&str; 2] = [
     include_str!("../assets/orbits.js"),
 ];
 
-/// Scripts as one, without the indentation of their lines, which no text of theirs runs across: pages stay small.
+/// Scripts as one, without comments that have lines of their own and without the indentation, which no text of theirs runs across:
+/// pages stay small.
 fn flush(scripts: &[&str]) -> String {
-    let lines = scripts.iter().flat_map(|script| script.lines());
-    lines.flat_map(|line| [line.trim_start(), "\n"]).collect()
+    let is_comment = |line: &&str| {
+        ["//", "/**", "* ", "*/"]
+            .iter()
+            .any(|start| line.starts_with(start))
+    };
+    let lines = scripts
+        .iter()
+        .flat_map(|script| script.lines())
+        .map(str::trim_start);
+    let lines = lines.filter(|line| !is_comment(line));
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// The whole page.

@@ -538,7 +538,10 @@ impl Search<'_> {
             0 => Vec::new(),
             count => {
                 let share = 1.0 / (count.max(2) - 1) as f64;
-                let widths = (0..count).map(|i| share * i as f64 * free_of_both);
+                let other =
+                    reversed_closing.map_or(0.0, |closing| closing + 0.5 * settings.tolerance);
+                let end = bracket.free.max(other);
+                let widths = (0..count).map(|i| share * i as f64 * end);
                 widths.collect()
             }
         };
@@ -773,11 +776,12 @@ mod tests {
         let gap = found.unwrap_or_else(|error| panic!("{error}")).remove(0);
         let other = critical_gaps(&input.model, &motion.reversed(), &settings, &|| false);
         let other = other.unwrap_or_else(|error| panic!("{error}")).remove(0);
-        assert_eq!(gap.of_both_signs_m(), other.of_both_signs_m());
+        let apart = gap.of_both_signs_m() - other.of_both_signs_m();
+        assert!(apart.abs() <= settings.tolerance);
         for curve in [&gap.curve, &gap.reversed_curve] {
             assert_eq!(curve.len(), 4);
             assert!(curve[0].impact_count > 0 && curve[3].impact_count == 0);
-            assert!((curve[3].width_m / gap.of_both_signs_m() - 1.0).abs() < 1e-12);
+            assert_eq!(curve[3].width_m, other.curve[3].width_m);
         }
         let forces = |curve: &[GapPoint]| curve.iter().map(|p| p.peak_force_n).collect::<Vec<_>>();
         assert_eq!(forces(&gap.reversed_curve), forces(&other.curve));
@@ -840,9 +844,10 @@ mod tests {
         let found = critical_gaps(&input.model, &motion, &settings, &|| false);
         let gap = &found.unwrap_or_else(|error| panic!("{error}"))[0];
         assert_eq!(gap.curve.len(), 9);
+        let end = gap.reversed_gap_m.expect("both signs") + 0.5 * settings.tolerance;
         assert_eq!(
             (gap.curve[0].width_m, gap.curve[8].width_m),
-            (0.0, gap.gap_m)
+            (0.0, end.max(gap.gap_m))
         );
         assert!(gap.curve[0].impact_count > 0 && gap.curve[8].impact_count == 0);
         for point in &gap.curve {

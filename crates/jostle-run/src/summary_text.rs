@@ -372,7 +372,7 @@ fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
 }
 
 /// A storey shear is named if it exceeds this multiple of the base shear \[–\].
-const BEYOND_BASE_SHEAR: f64 = 1.02;
+const BEYOND_BASE_SHEAR: f64 = 1.2;
 
 /// Storeys whose shear exceeds that of the base, one line for each building: an impact, the soil beside a basement or bearings are
 /// between them.

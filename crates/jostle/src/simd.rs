@@ -100,7 +100,7 @@ pub(crate) fn dots<S: Simd>(simd: S, vectors: &[Vec<f64>], with: &[f64], product
             for r in 0..used {
                 let (at, with) = (first + r, registers[first + r]);
                 let add = |sum: &mut S::f64s, factor| {
-                    *sum = simd.add_f64s(*sum, simd.mul_f64s(factor, with))
+                    *sum = simd.add_f64s(*sum, simd.mul_f64s(factor, with));
                 };
                 add(&mut sums[0][r], own_a[at]);
                 add(&mut sums[1][r], own_b[at]);

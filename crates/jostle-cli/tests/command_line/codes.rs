@@ -172,7 +172,7 @@ fn the_report_shows_the_codes() {
 #[test]
 fn basements_are_no_part_of_the_height() {
     let folder = folder();
-    let setback = |elevation: &str| {
+    let inputs = |elevation: &str| {
         let text = TOWERS.replacen(
             "kind = \"shear\"",
             &format!("kind = \"shear\"\nelevation = \"{elevation}\""),
@@ -183,13 +183,16 @@ fn basements_are_no_part_of_the_height() {
             folder.path(),
             &["gap", "base.toml", "--no-outcomes", "--json"],
         );
-        rules_of(&found)("NSR-10")["setbacks_m"][0]
-            .as_f64()
-            .expect("a setback")
+        rules_of(&found)("NSR-10")["inputs"].to_string()
     };
-    // Three storeys of 3.2 m: 1 % of all of them beside slabs at other heights, nothing for two.
-    assert!((setback("-0.9 m") - 0.096).abs() < 1e-12);
-    assert!(setback("-3.2 m").abs() < 1e-12);
+    for (elevation, storeys) in [("0 m", 3), ("-3.2 m", 2)] {
+        let said = inputs(elevation);
+        assert!(
+            said.contains(&format!("soft: {storeys} storeys above ground")),
+            "{said}"
+        );
+        assert!(said.contains("stiff: 3 storeys above ground"), "{said}");
+    }
 }
 
 /// One building beside a wall: EN 1998-1 §4.4.2.7(2)a asks for its own displacement, without the 0.7 for level floors, and

@@ -551,7 +551,7 @@ fn an_interrupted_curve_keeps_what_is_done() {
         complained(&output)
     );
     let table = std::fs::read_to_string(folder.join("curve/gap_curve.csv")).expect("a table");
-    assert_eq!(table.lines().count(), 1 + 12, "{table:.300}");
+    assert_eq!(table.lines().count(), 1 + 2 * 12, "{table:.300}");
 }
 
 /// Summaries, manifests and pages name the version, and the commit of builds that know theirs.

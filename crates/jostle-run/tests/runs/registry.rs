@@ -274,7 +274,7 @@ fn summary_of(model: &str) -> Summary {
 }
 
 /// Numbers that few objects have.
-const RARE: [&str; 1] = ["degree_of_coupling"];
+const RARE: [&str; 2] = ["degree_of_coupling", "pga_across_m_s2"];
 
 /// Keys of objects that may be `null`.
 const OBJECTS: [&str; 4] = ["first", "first_joint", "impact", "shear_at"];

@@ -92,7 +92,7 @@ impl FaceForces {
             .find(|impact| impact.face == face);
         match last {
             Some(impact) if impact.start == instant && impact.end == instant => {
-                impact.centre = centre
+                impact.centre = centre;
             }
             _ => self.impacts.push(FaceImpact {
                 centre,

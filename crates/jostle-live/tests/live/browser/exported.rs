@@ -66,7 +66,7 @@ fn exported_page_has_the_numbers_of_the_program_and_its_knobs_work() {
     page.type_into("gap[0].width", "3 kg");
     assert!(page.fault_of("gap[0].width").contains("expected a length"));
     page.click("undo");
-    assert!(page.headline().contains("hit"), "{}", page.headline());
+    assert!(page.headline().contains("impact"), "{}", page.headline());
     // The report is made inside too.
     page.value("window.kept = []; URL.createObjectURL = (blob) => { blob.text().then((text) => window.kept.push(text)); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {}");
     page.value("document.getElementById('save-report').click()");
@@ -158,7 +158,7 @@ fn a_page_opens_with_the_model_of_its_address_and_has_the_files_of_all() {
             model.contains(&format!("width = \"{width} mm\"")),
             "{model}"
         );
-        assert!(page.headline().contains("hit"), "{}", page.headline());
+        assert!(page.headline().contains("impact"), "{}", page.headline());
         page.assert_content();
     }
 }

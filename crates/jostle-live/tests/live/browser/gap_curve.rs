@@ -38,7 +38,7 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
         page.headline()
     );
     page.type_into("gap[0].width", &format!("{} mm", needed - 0.5));
-    assert!(page.headline().contains("hit"), "{}", page.headline());
+    assert!(page.headline().contains("impact"), "{}", page.headline());
     // By keyboard, and by dragging.
     page.value("document.querySelector('.handle').focus()");
     page.press("ArrowRight");
@@ -58,7 +58,7 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
     page.mouse(Mouse::Move, left + 0.3 * width, top + 100.0);
     page.mouse(Mouse::Release, left + 0.3 * width, top + 100.0);
     page.settled();
-    assert!(page.headline().contains("hit"), "{}", page.headline());
+    assert!(page.headline().contains("impact"), "{}", page.headline());
     let dragged =
         page.number("Number(document.querySelector('.handle').getAttribute('aria-valuenow'))");
     assert!(dragged < needed, "{dragged}");

@@ -138,7 +138,7 @@ fn a_model_with_a_fault_opens_and_can_be_mended() {
     page.glance("live-broken");
     page.type_into("gap[0].width", "90 mm");
     page.wait("Number(document.body.dataset.frames) === 1");
-    assert!(page.headline().contains("hit"), "{}", page.headline());
+    assert!(page.headline().contains("impact"), "{}", page.headline());
     assert_eq!(
         std::fs::read_to_string(&file).unwrap(),
         broken,

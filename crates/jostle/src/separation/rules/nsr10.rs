@@ -29,10 +29,7 @@ impl Table<'_> {
                 1 => "1 storey".to_owned(),
                 count => format!("{count} storeys"),
             };
-            format!(
-                "{}: {storeys}, {:.1} m above ground",
-                side.name, side.height
-            )
+            format!("{}: {storeys} above ground", side.name)
         }));
         self.add(
             "NSR-10",

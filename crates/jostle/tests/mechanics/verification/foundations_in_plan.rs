@@ -728,7 +728,7 @@ fn what_a_foundation_in_plan_cannot_have_is_refused() {
     });
     let mut negative = sound.clone();
     foundation_of(&mut negative, &|foundation| {
-        foundation.torsional_damping = Some(-1.0)
+        foundation.torsional_damping = Some(-1.0);
     });
     let mut bare = sound.clone();
     bare.soil = None;
