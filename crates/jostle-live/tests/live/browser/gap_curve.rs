@@ -135,3 +135,33 @@ fn sensitive_results_are_found_after_the_frame() {
     page.wait(&format!("{shown} === {sound:?}"));
     page.assert_content();
 }
+
+/// Values take the unit of the page once, however often the curve is drawn.
+#[test]
+fn in_us_units_the_curve_stays_when_it_is_drawn_again() {
+    let text = jostle_io::model_text("paper").unwrap();
+    let text = text.replacen("[motion]\n", "[motion]\nduration = \"8 s\"\n", 1);
+    let text = format!("{text}\n[output]\nunits = \"us\"\n");
+    let engine = jostle_live::Engine::from_text("paper", &text, std::path::Path::new("")).unwrap();
+    let server = jostle_live::Server::start(engine, 0).unwrap();
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    let whole = "(document.querySelector('.curve-line')?.getAttribute('d').match(/L/g) ?? []).length >= 119";
+    page.wait(whole);
+    // The line fills its picture with any factor: the numbers of the axis say which.
+    let numbers = "[...document.querySelectorAll('#curve-picture .grid text')].map((one) => one.textContent).join()";
+    let drawn = || page.text(numbers);
+    let first = drawn();
+    for measure in ["3", "0"] {
+        page.value(&format!(
+            "(() => {{ const list = document.getElementById('measure'); list.value = '{measure}'; list.dispatchEvent(new Event('change')); return 0; }})()"
+        ));
+        page.drawn();
+    }
+    assert_eq!(drawn(), first);
+    assert!(
+        page.text("document.getElementById('curve-caption').textContent")
+            .contains("kip")
+    );
+}
