@@ -632,6 +632,16 @@ mod tests {
 
     use super::*;
 
+    /// The built-in example, and the first six seconds of its motion.
+    fn of_six_seconds() -> (jostle_io::Input, GroundMotion) {
+        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
+        if let Some(motion) = &mut input.motion {
+            motion.duration = Some(6.0);
+        }
+        let motion = input.ground_motion();
+        (input, motion.unwrap_or_else(|error| panic!("{error}")))
+    }
+
     /// EN 1998-1 reduces the SRSS only where floors lie at equal height.
     #[test]
     fn unequal_floors_get_no_reduced_rule() {
@@ -706,13 +716,7 @@ mod tests {
     /// Gaps that cannot close are not run, none is run twice, and every run is reported.
     #[test]
     fn what_is_known_is_not_run() {
-        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
-        if let Some(motion) = &mut input.motion {
-            motion.duration = Some(6.0);
-        }
-        let motion = input
-            .ground_motion()
-            .unwrap_or_else(|error| panic!("{error}"));
+        let (input, motion) = of_six_seconds();
         let last = Mutex::new(None);
         let report = |progress: &GapProgress| {
             assert!(progress.done <= progress.of as f64 + 1e-9, "{progress:?}");
@@ -760,13 +764,7 @@ mod tests {
     /// Curves reach to where neither sign of the motion leads to an impact.
     #[test]
     fn curves_have_both_signs() {
-        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
-        if let Some(motion) = &mut input.motion {
-            motion.duration = Some(6.0);
-        }
-        let motion = input
-            .ground_motion()
-            .unwrap_or_else(|error| panic!("{error}"));
+        let (input, motion) = of_six_seconds();
         let settings = GapSettings {
             outcomes: false,
             curve: 4,
@@ -790,13 +788,7 @@ mod tests {
     /// A search that is stopped keeps the smallest gap, and the outcomes that are known; before that there is nothing.
     #[test]
     fn a_stopped_search_keeps_what_it_found() {
-        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
-        if let Some(motion) = &mut input.motion {
-            motion.duration = Some(6.0);
-        }
-        let motion = input
-            .ground_motion()
-            .unwrap_or_else(|error| panic!("{error}"));
+        let (input, motion) = of_six_seconds();
         let done = Mutex::new(0.0);
         let until = |most: f64| {
             let stop = || *done.lock().expect("no panic") >= most;
@@ -829,13 +821,7 @@ mod tests {
     /// Every point of the curve is the run of a model with that width, assembled by itself.
     #[test]
     fn points_of_the_curve_are_runs() {
-        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
-        if let Some(motion) = &mut input.motion {
-            motion.duration = Some(6.0);
-        }
-        let motion = input
-            .ground_motion()
-            .unwrap_or_else(|error| panic!("{error}"));
+        let (input, motion) = of_six_seconds();
         let settings = GapSettings {
             outcomes: false,
             curve: 9,

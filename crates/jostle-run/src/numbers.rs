@@ -28,7 +28,7 @@ pub fn kn(newtons: f64) -> String {
     FORCE.number(newtons, 1)
 }
 
-/// A number of up to so many digits with the prefix of its unit, such as `400 MN/m`; outside of SI in the unit that is shown for this SI
+/// A number with at most `digits` digits and the prefix of its unit, such as `400 MN/m`; outside of SI in the unit that is shown for this SI
 /// unit. Very large and very small numbers, and units of broken powers such as `N/m^1.5`, have a power of ten.
 pub(crate) fn prefixed(si: f64, unit: &str, digits: usize) -> String {
     let power = |value: f64, unit: &str| format!("{value:.*e} {unit}", digits - 1);

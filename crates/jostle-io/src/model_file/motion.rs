@@ -465,7 +465,7 @@ fn factor(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
     Some(factor)
 }
 
-/// How a motion with so many records is scaled.
+/// How a motion is scaled; a list of factors has one for each of its `records`.
 fn scaling(reader: &mut Reader<'_>, view: &View<'_>, files: &Files, records: usize) -> Scaling {
     let given = ["pga", "scale", "match"].map(|key| reader.get(view, key));
     let mut first = None;

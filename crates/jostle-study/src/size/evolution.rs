@@ -8,7 +8,7 @@ use crate::sampling::Stream;
 /// Weight of differences and probability of a crossed coordinate \[–\].
 const WEIGHT: f64 = 0.6;
 const CROSSED: f64 = 0.9;
-/// Members of a generation: these, and so many more for every varied key.
+/// Members of a generation: a number, and what every varied key adds.
 const MEMBERS: [usize; 2] = [6, 6];
 /// Purpose of its random streams.
 const SEARCH: u64 = 8;
@@ -16,7 +16,7 @@ const SEARCH: u64 = 8;
 /// A member of a generation: its point between the bounds, each from 0 to 1, and its merit.
 pub(super) type Member = (Vec<f64>, Merit);
 
-/// Members of a generation that varies so many keys.
+/// Members of a generation that varies this number of keys.
 pub(super) fn members(keys: usize) -> usize {
     MEMBERS[0] + MEMBERS[1] * keys
 }

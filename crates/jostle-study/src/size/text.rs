@@ -170,7 +170,7 @@ impl SizeResults {
         let trial = self.reversed.as_ref()?;
         if trial.keeps() {
             return (!self.conditions.is_empty())
-                .then(|| "With the motion reversed it is met as well.".to_owned());
+                .then(|| "Also met with the motion reversed.".to_owned());
         }
         let violated = self.conditions.iter().zip(&trial.kept);
         let violated = violated

@@ -2,7 +2,7 @@
 
 use crate::model::{Building, Model, PlanAxis, PlanPoint, Structure, Tiers};
 
-/// Length by which a wall may stand out without a word \[m\].
+/// Length by which a wall may stand out of the plan before a warning names it \[m\].
 const SLIGHT: f64 = 0.05;
 
 /// Walls whose ends lie outside of the plan of their floors, one line for every building: contact and pictures take the plan as the face.
