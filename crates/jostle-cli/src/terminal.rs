@@ -4,6 +4,7 @@
 use std::io::{ErrorKind, IsTerminal, Write};
 
 use anstyle::{AnsiColor, Style};
+use jostle_io::in_shown_units;
 use jostle_run::{LOUD, styled};
 
 use crate::failure::Failure;
@@ -49,6 +50,7 @@ pub(crate) fn remark(text: &str) {
 
 /// Prints a warning to standard error.
 pub(crate) fn warn(text: &str) {
+    let text = in_shown_units(text);
     remark(&format!("{} {text}", styled(LOUD, "warning:")));
 }
 

@@ -42,6 +42,7 @@ mod rewrite;
 mod schema;
 mod selection;
 pub mod shown;
+mod shown_text;
 mod source;
 mod study_file;
 mod tables;
@@ -106,6 +107,7 @@ pub use response_tables::{
 pub use schema::model_schema;
 pub use selection::selection_json;
 pub use shown::Units;
+pub use shown_text::in_shown_units;
 pub use source::Place;
 pub use study_file::{
     Correlation, Design, DesignKind, Distribution, Factor, FactorValues, FragilityMethod,

@@ -103,6 +103,10 @@ pub const STRESS: Shown = shown(("MPa", 1e6), ("ksi", KSI), 2);
 pub const MODULUS: Shown = shown(("GPa", 1e9), ("ksi", KSI), 0);
 /// A pressure on soil or over a floor \[Pa\].
 pub const PRESSURE: Shown = shown(("kPa", 1e3), ("ksf", KIP / (FOOT * FOOT)), 2);
+/// An area of a floor \[m²\].
+pub const AREA: Shown = shown(("m²", 1.0), ("ft²", FOOT * FOOT), 0);
+/// A mass per area \[kg/m²\]; in US units its weight.
+pub const AREA_MASS: Shown = shown(("kg/m²", 1.0), ("psf", POUND / (FOOT * FOOT)), 0);
 /// A mass \[kg\]; in US units its weight.
 pub const MASS: Shown = shown(("t", 1e3), ("kip", 1e3 * POUND), 0);
 /// A mass per length \[kg/m\]; in US units its weight.
@@ -146,6 +150,8 @@ pub const ALL_SHOWN: &[Shown] = &[
     STRESS,
     MODULUS,
     PRESSURE,
+    AREA,
+    AREA_MASS,
     MASS,
     LINE_MASS,
     SPEED,
@@ -170,6 +176,11 @@ impl Shown {
     #[must_use]
     pub fn si_name(self) -> &'static str {
         self.si.0
+    }
+
+    /// The size of its SI unit \[SI\].
+    pub(crate) fn si_size(self) -> f64 {
+        self.si.1
     }
 
     /// Name of its unit in a system.

@@ -73,12 +73,11 @@ class TimeChart {
     this.figure = html("figure", "chart", undefined, host);
     this.caption = html("figcaption", "", undefined, this.figure);
     this.svg = svg("svg", { role: "img", tabindex: 0 }, this.figure);
-    this.clip = `clip-${TimeChart.count++}`;
     this.layers = {};
-    const definitions = svg("clipPath", { id: this.clip }, svg("defs", {}, this.svg));
-    this.clipBox = svg("rect", {}, definitions);
+    const clipped = clip(this.svg);
+    this.clipBox = clipped.rect;
     for (const name of ["zone", "grid", "lines", "levels", "dots", "marks"]) {
-      const inside = name === "grid" || name === "levels" ? {} : { "clip-path": `url(#${this.clip})` };
+      const inside = name === "grid" || name === "levels" ? {} : clipped.attributes;
       this.layers[name] = svg("g", { class: name, ...inside }, this.svg);
     }
     this.name();
@@ -123,8 +122,6 @@ class TimeChart {
     if (named(this) !== before) this.name();
     this.draw();
   }
-
-  static count = 0;
 
   /** Whether charts out of sight wait. */
   static lazy = false;

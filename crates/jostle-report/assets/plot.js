@@ -102,11 +102,19 @@ function plot(group, { width, height, margin, x, y }) {
   return { px: across.at, py: up.at, x: across, y: up, box };
 }
 
-/** A group of a drawing that shows nothing outside a box. */
-function inside(drawing, { left, top, right, bottom }) {
-  const id = `clip-${inside.count++}`;
-  svg("rect", { x: left, y: top, width: right - left, height: bottom - top }, svg("clipPath", { id }, svg("defs", {}, drawing)));
-  return svg("g", { "clip-path": `url(#${id})` }, drawing);
+/** A box of a drawing outside of which nothing shows that takes its `attributes`; `rect` is its size. No two of a page have one name. */
+function clip(drawing) {
+  const id = `clip-${clip.count++}`;
+  const rect = svg("rect", {}, svg("clipPath", { id }, svg("defs", {}, drawing)));
+  return { rect, attributes: { "clip-path": `url(#${id})` } };
 }
 
-inside.count = 0;
+clip.count = 0;
+
+/** A group of a drawing that shows nothing outside a box. */
+function inside(drawing, { left, top, right, bottom }) {
+  const { rect, attributes } = clip(drawing);
+  const size = { x: left, y: top, width: right - left, height: bottom - top };
+  for (const [key, value] of Object.entries(size)) rect.setAttribute(key, value);
+  return svg("g", attributes, drawing);
+}

@@ -1,6 +1,7 @@
 //! What the checks found: assumptions and limits of the result.
 
 use jostle::results::summary::{Finding, Grade};
+use jostle_io::in_shown_units;
 use maud::{Markup, html};
 
 use crate::{Page, format, message};
@@ -35,8 +36,8 @@ fn item(finding: &Finding) -> Markup {
     };
     html! {
         li data-grade=(finding.grade.word()) {
-            b { (grade) } " " (message::what_was_found(&finding.text, finding.id)) " "
-            span.quiet { (message::what_to_do(format::capital(finding.remedy))) }
+            b { (grade) } " " (message::what_was_found(&in_shown_units(&finding.text), finding.id)) " "
+            span.quiet { (message::what_to_do(format::capital(&in_shown_units(finding.remedy)))) }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The page: head, key figures, sections, controls.
 
+use jostle_io::in_shown_units;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
@@ -170,7 +171,7 @@ pub(crate) fn warnings(page: &Page) -> Markup {
                     p { b { (message::the_run_ended_early()) " " } (why) }
                 }
                 @for warning in &summary.warnings {
-                    p { b { (message::warning()) " " } (warning) }
+                    p { b { (message::warning()) " " } (in_shown_units(warning)) }
                 }
             }
         }

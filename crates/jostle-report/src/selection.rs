@@ -1,5 +1,6 @@
 //! Checks of sets of ground motions by a code: a separate page, and sections for the page of a study.
 
+use jostle_io::in_shown_units;
 use jostle_motion::{
     Candidate, MainPeriod, MotionFault, Origin, Reading, RuleKind, SelectionCheck, SelectionRule,
     TargetSpectrum, response_spectrum, spaced_periods,
@@ -366,7 +367,7 @@ fn rules_table(check: &SelectionCheck) -> Markup {
                 }
             }
         } } }
-        @for note in &check.notes { p.quiet { (note) } }
+        @for note in &check.notes { p.quiet { (in_shown_units(note)) } }
     }
 }
 

@@ -22,6 +22,7 @@ use base::{
 use frames::{axial_of_columns, diagonals, members, rigid_ends, space_walls, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
+use jostle_io::in_shown_units;
 use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH, MASS, MOMENT, SPEED, by_model};
 use jostle_report::{SitePlace, site_svg};
 use losses::losses;
@@ -112,10 +113,12 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
         &opened.system,
     ));
     for warning in &warnings {
+        let warning = in_shown_units(warning);
         let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
     }
     let notes = opened.input.assumptions();
     for assumption in &notes {
+        let assumption = in_shown_units(assumption);
         let _ = writeln!(text, "{} {assumption}", styled(LOUD, "note:"));
     }
     if !(warnings.is_empty() && notes.is_empty()) {
@@ -149,6 +152,7 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
         if let Some(warning) = opened.input.unusual_motion(&motion) {
+            let warning = in_shown_units(warning);
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
@@ -225,6 +229,7 @@ fn records(
         );
         if let Some(warning) = input.unusual_motion(&motion) {
             let warning = format!("{}: {warning}", motion.name);
+            let warning = in_shown_units(warning);
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use jostle::results::summary::{Finding, Grade};
+use jostle_io::in_shown_units;
 
 use crate::style::{DIM, LOUD, styled};
 
@@ -30,7 +31,11 @@ pub fn write_findings(text: &mut impl Write, findings: &[Finding], rest: &str) -
 /// One finding with its remedy, for `jostle check`.
 #[must_use]
 pub fn finding_with_remedy(finding: &Finding) -> String {
-    format!("{}\n  {}", line(finding), styled(DIM, finding.remedy))
+    format!(
+        "{}\n  {}",
+        line(finding),
+        styled(DIM, &in_shown_units(finding.remedy))
+    )
 }
 
 fn line(finding: &Finding) -> String {
@@ -42,7 +47,7 @@ fn line(finding: &Finding) -> String {
     format!(
         "{} {} ({})",
         styled(style, &label),
-        finding.text,
+        in_shown_units(&finding.text),
         finding.id
     )
 }

@@ -13,11 +13,11 @@ use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
 use jostle::separation::Requirements;
-use jostle_io::Input;
 use jostle_io::shown::{
     ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
+use jostle_io::{Input, in_shown_units};
 use jostle_report::damage;
 
 use crate::checks_text::write_findings;
@@ -122,6 +122,7 @@ fn write_all(
     }
     let before = text.len();
     for warning in &summary.warnings {
+        let warning = in_shown_units(warning);
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
     }
     let rest = match result {
@@ -136,6 +137,7 @@ fn write_all(
     };
     write_findings(text, &summary.checks, rest)?;
     for note in &summary.notes {
+        let note = in_shown_units(note);
         writeln!(text, "{} {note}", styled(DIM, "note:"))?;
     }
     if asks_for_codes {

@@ -255,8 +255,11 @@ impl Page {
         self.connection().complaints.clone()
     }
 
-    /// Nothing was complained about.
+    /// Nothing was complained about, and no two elements have one name, which would give one the other's clip or label.
     pub fn assert_content(&self) {
+        let twice = "(() => { const ids = [...document.querySelectorAll('[id]')].map((e) => e.id); \
+            return ids.filter((id, at) => ids.indexOf(id) < at).join(); })()";
+        assert_eq!(self.text(twice), "", "names stand twice on the page");
         let complaints = self.complaints();
         assert!(
             complaints.is_empty(),
