@@ -27,7 +27,7 @@ const TIME_OF_ONE: f64 = 2e-8;
 /// Time that a run may use to find out how fast this machine is.
 const TRIED: Duration = Duration::from_millis(200);
 /// What users wait for without a word: longer runs are announced \[s\].
-const PATIENCE: f64 = 60.0;
+const PATIENCE: f64 = 10.0;
 /// Duration of a run relative to that of its first pass through the motion: with automatic steps direct runs take a pass with
 /// steps about twice as long first, with given steps afterwards.
 const PASSES: [f64; 2] = [3.0, 1.6];
@@ -127,9 +127,10 @@ impl Prepared {
         ))
     }
 
-    /// Expected time of the run with contact on this machine, from its first 0.2 s \[s\].
+    /// Expected time of a run on this machine, from its first 0.2 s \[s\]. `both`: the run without contact follows, which a run by modes
+    /// or power series makes in little time.
     #[must_use]
-    pub fn expected_seconds(&self, settings: Settings) -> f64 {
+    pub fn expected_seconds(&self, settings: Settings, both: bool) -> f64 {
         let settings = self.with_rows_for_spectra(settings);
         let mut pace = Pace::new(self);
         let outcome = self.step(settings, |progress| {
@@ -143,11 +144,15 @@ impl Prepared {
         // The beginning of a motion is quiet.
         let work = self.plan.expected_work(&self.system, self.motion.duration);
         let least = pace.passes * work * TIME_OF_ONE;
-        match outcome.end {
+        let of_one = match outcome.end {
             RunEnd::Stopped if pace.expected.is_finite() => pace.expected.max(least),
             RunEnd::Stopped => least,
             RunEnd::Completed | RunEnd::Failed(_) => pace.started.elapsed().as_secs_f64(),
-        }
+        };
+        let again = both
+            && !self.system.contacts.is_empty()
+            && !matches!(self.plan.solver, Solver::Modal | Solver::Series);
+        if again { 2.0 * of_one } else { of_one }
     }
 }
 

@@ -57,6 +57,45 @@ fn pair(gap: &str) -> String {
     )
 }
 
+/// A column that is struck, with so much of its capacity in shear at its foot, or in bending where it is struck.
+fn struck(shear: f64, bending: f64) -> MemberSummary {
+    let place = |at| RatioPlace {
+        at,
+        height_m: 0.0,
+        at_s: 1.0,
+        demand: 1e5,
+        demand_across: None,
+        capacity: 1e5,
+        compression_n: 0.0,
+        exceeded_s: None,
+        impact: Some(ImpactPlace {
+            between: ["A".into(), "B".into()],
+            floors: [None, Some(1)],
+            height_m: 2.0,
+            start_s: 0.9,
+        }),
+    };
+    let section = SectionSummary::default();
+    MemberSummary {
+        name: "A.column.1.1".into(),
+        struck: vec![StruckSummary {
+            height_m: 2.0,
+            impact_count: 1,
+            peak_force_n: 1e5,
+            below: section,
+            above: section,
+        }],
+        ratio: Some(RatioSummary {
+            rule: "rule",
+            shear: Some(shear),
+            bending,
+            shear_at: Some(place("foot")),
+            bending_at: place("above"),
+        }),
+        ..MemberSummary::default()
+    }
+}
+
 /// Models just inside and just outside.
 fn models() -> Vec<(&'static str, String, String)> {
     let tall = |stiffness: f64| {
@@ -379,43 +418,13 @@ fn results() -> Vec<(&'static str, Change, f64, f64)> {
         ),
         (
             "struck-column",
-            |s, x| {
-                let place = RatioPlace {
-                    at: "foot",
-                    height_m: 0.0,
-                    at_s: 1.0,
-                    demand: 1e5,
-                    demand_across: None,
-                    capacity: 1e5,
-                    compression_n: 0.0,
-                    exceeded_s: None,
-                    impact: Some(ImpactPlace {
-                        between: ["A".into(), "B".into()],
-                        floors: [None, Some(1)],
-                        height_m: 2.0,
-                        start_s: 0.9,
-                    }),
-                };
-                let section = SectionSummary::default();
-                s.buildings[0].members = vec![MemberSummary {
-                    name: "A.column.1.1".into(),
-                    struck: vec![StruckSummary {
-                        height_m: 2.0,
-                        impact_count: 1,
-                        peak_force_n: 1e5,
-                        below: section,
-                        above: section,
-                    }],
-                    ratio: Some(RatioSummary {
-                        rule: "rule",
-                        shear: Some(x),
-                        bending: 0.5,
-                        shear_at: Some(place.clone()),
-                        bending_at: place,
-                    }),
-                    ..MemberSummary::default()
-                }];
-            },
+            |s, x| s.buildings[0].members = vec![struck(x, 0.5)],
+            0.99,
+            1.01,
+        ),
+        (
+            "struck-bending",
+            |s, x| s.buildings[0].members = vec![struck(0.5, x)],
             0.99,
             1.01,
         ),
@@ -659,7 +668,7 @@ fn results_trip_their_checks_and_others_just_do_not() {
     for check in CHECKS {
         let is_tested = tested.contains(&check.name)
             || all.iter().any(|(name, ..)| *name == check.name)
-            || ["records", "cut-record", "record-scale"].contains(&check.name);
+            || ["records", "cut-record", "record-scale", "bumper"].contains(&check.name);
         assert!(is_tested, "{} has no model that trips it", check.name);
         assert!(!check.remedy.is_empty() && !check.limits.is_empty());
         let of_the_authors = |source: &&&str| source.ends_with(JUDGEMENT);
@@ -672,6 +681,36 @@ fn results_trip_their_checks_and_others_just_do_not() {
         let alone = [&[JUDGEMENT][..], &[FROM_MODEL]].contains(&check.sources);
         assert!(agreed || alone, "{}: {:?}", check.name, check.sources);
     }
+}
+
+/// A bumper that stops the buildings where 0.8 of its thickness is used up, and one thick enough.
+#[test]
+fn bumpers_that_are_too_thin_are_named() {
+    let with = |thickness: u32| {
+        let text = TOUCHING.replace(
+            "stiffness = \"1.5e10 N/m^1.5\"",
+            &format!("law = \"rubber\"\nthickness = \"{thickness} mm\"\nstiffness = \"2 MN/m\""),
+        );
+        let (_, summary) = run(sound(&text), false);
+        let impacts = summary.gaps[0]
+            .contacts
+            .iter()
+            .flat_map(|contact| &contact.impacts);
+        let depth = impacts
+            .map(|impact| impact.peak_indentation_m)
+            .fold(0.0, f64::max);
+        (depth, is_found(&summary.checks, "bumper"))
+    };
+    for thickness in [10, 400] {
+        let (depth, found) = with(thickness);
+        assert!(depth > 0.001, "{depth}");
+        assert_eq!(
+            found,
+            depth > 0.8e-3 * f64::from(thickness),
+            "{thickness} mm by {depth} m"
+        );
+    }
+    assert!(with(10).1 && !with(400).1);
 }
 
 /// Next to no shaking changes no axial force, whether forces contain self weight or not.

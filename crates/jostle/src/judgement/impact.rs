@@ -36,6 +36,30 @@ pub(super) fn indentation(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
+/// Greatest compression of rubber bumpers over their thickness.
+pub(super) fn bumper(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (gap, model) in summary.gaps.iter().zip(&known.model.gaps) {
+        let LawKind::Rubber(bumper) = model.law.kind else {
+            continue;
+        };
+        let impacts = gap.contacts.iter().flat_map(|contact| &contact.impacts);
+        for depth in impacts.map(|impact| impact.peak_indentation_m) {
+            tally.add(depth / bumper.thickness, || {
+                let place = gap.between.join(" ↔ ");
+                let text = format!(
+                    "{place}: a rubber bumper of {:.0} mm is compressed by {:.1} mm",
+                    1e3 * bumper.thickness,
+                    1e3 * depth
+                );
+                (place, text)
+            });
+        }
+    }
+}
+
 /// Greatest indentation over the length of the shorter floor.
 pub(super) fn indentation_share(known: &Known<'_>, tally: &mut Tally<'_>) {
     for (index, gap, impact) in impacts(known) {

@@ -97,7 +97,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[below(0.01, Note), above(0.10, Note)],
         sources: &[JUDGEMENT],
-        remedy: "name the modes of damping so that all that matter lie between 1 and 10 %",
+        remedy: "name the modes of damping so that all that matter lie between 1 and 10 %; for braces and panels that yield, see yielding under damping",
         measure: damping::modal_damping,
     },
     Check {
@@ -320,6 +320,16 @@ pub const CHECKS: &[Check] = &[
         measure: yielding::struck_columns,
     },
     Check {
+        id: "B3",
+        name: "struck-bending",
+        quantity: "moment over its capacity of a column where a neighbour strikes it between floors",
+        unit: "–",
+        limits: &[above(1.0, Warning)],
+        sources: &[FROM_MODEL],
+        remedy: "the column yields before this moment is reached, and forces from then on are too large; align floors, widen the gap, or judge the column as failed",
+        measure: yielding::struck_bending,
+    },
+    Check {
         id: "B4",
         name: "elastic-drift",
         quantity: "drift of an elastic building over 1 %, at which concrete frames yield",
@@ -342,7 +352,7 @@ pub const CHECKS: &[Check] = &[
     Check {
         id: "B5",
         name: "column-tension",
-        quantity: "greatest tension of a column over its greatest compression, with gravity = true and forces of members",
+        quantity: "greatest tension of a column over its greatest compression, with forces of members, where these contain self weight: with gravity = true, or with P-Delta in one plane",
         unit: "–",
         limits: &[above(0.01, Note)],
         sources: &[JUDGEMENT],
@@ -366,7 +376,7 @@ pub const CHECKS: &[Check] = &[
         unit: "m",
         limits: &[above(0.010, Note), above(0.050, Warning)],
         sources: &[JUDGEMENT],
-        remedy: "check the contact stiffness and its unit (jostle contact-advice)",
+        remedy: "compare the contact stiffness with jostle contact-advice; if it agrees, edges crush before the force is so large (law = \"crushing\")",
         measure: impact::indentation,
     },
     Check {
@@ -378,6 +388,16 @@ pub const CHECKS: &[Check] = &[
         sources: &[JUDGEMENT],
         remedy: "check the contact stiffness and its unit (jostle contact-advice)",
         measure: impact::indentation_share,
+    },
+    Check {
+        id: "B6",
+        name: "bumper",
+        quantity: "greatest compression of a rubber bumper over its thickness",
+        unit: "–",
+        limits: &[above(0.8, Warning)],
+        sources: &[FROM_MODEL],
+        remedy: "rubber pressed so far stops the buildings like bare concrete, with a larger force than this one: give a thicker or stiffer bumper",
+        measure: impact::bumper,
     },
     Check {
         id: "B6",

@@ -5,6 +5,7 @@ use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
     Building, Diagonal, DiagonalKind, FramePlace, Hinges, STANDARD_GRAVITY, Structure,
 };
+use crate::results::summary::{MemberSummary, RatioSummary};
 
 /// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
 const YIELD_DRIFT: f64 = 0.01;
@@ -125,20 +126,13 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Shear over capacity of columns that a neighbour strikes between floors.
+/// Greatest shear over its capacity of columns that are struck between floors, during an impact.
 pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
-    let Some((summary, _)) = known.results else {
-        return;
-    };
-    // Columns that fail in this model bear no more than they can.
-    let buildings = summary.buildings.iter();
-    let lasting = buildings.filter(|building| building.shear_failures.is_none());
-    for member in lasting.flat_map(|lasting| &lasting.members) {
-        let Some(ratio) = &member.ratio else { continue };
+    for (member, ratio) in struck(known) {
         let (Some(times), Some(place)) = (ratio.shear, &ratio.shear_at) else {
             continue;
         };
-        if member.struck.iter().all(|point| point.impact_count == 0) || place.impact.is_none() {
+        if place.impact.is_none() {
             continue;
         }
         tally.add(times, || {
@@ -151,8 +145,41 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Elastic buildings that are not isolated: drift over that at yield, base shear over weight, and name.
-fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str)) {
+/// Greatest moment over its capacity at struck points of columns, where no hinge yields.
+pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for (member, ratio) in struck(known) {
+        let (times, place) = (ratio.bending, &ratio.bending_at);
+        if !matches!(place.at, "below" | "above") {
+            continue;
+        }
+        tally.add(times, || {
+            let text = format!(
+                "the moment in {} where it is struck is {times:.1} times its capacity ({}), and the column stays elastic there: hinges stand at its ends",
+                member.name, ratio.rule
+            );
+            (member.name.clone(), text)
+        });
+    }
+}
+
+/// Columns that were struck between floors, and what they bear; not those that fail in this model, which bear no more than they can.
+fn struck<'a>(known: &Known<'a>) -> impl Iterator<Item = (&'a MemberSummary, &'a RatioSummary)> {
+    let buildings = known
+        .results
+        .iter()
+        .flat_map(|(summary, _)| &summary.buildings);
+    let lasting = buildings.filter(|building| building.shear_failures.is_none());
+    lasting
+        .flat_map(|lasting| &lasting.members)
+        .filter_map(|member| {
+            let is_struck = member.struck.iter().any(|point| point.impact_count > 0);
+            Some((member, member.ratio.as_ref().filter(|_| is_struck)?))
+        })
+}
+
+/// Elastic buildings that are not isolated, whatever their panels do: drift over that at yield, base shear over weight, name, and
+/// how elastic it is in words.
+fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str, &str)) {
     let Some((summary, _)) = known.results else {
         return;
     };
@@ -165,16 +192,30 @@ fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str)) {
             building.response.drift_peak / YIELD_DRIFT,
             shear,
             &building.name,
+            match panels_yield(model) {
+                true => "is elastic apart from its infill panels",
+                false => "is elastic",
+            },
         );
+    }
+}
+
+/// Whether infill panels of a building yield.
+fn panels_yield(building: &Building) -> bool {
+    match &building.structure {
+        Structure::Frame(frame) => frame.diagonals.iter().any(|diagonal| {
+            diagonal.place.kind == DiagonalKind::Infill && diagonal.hysteresis.is_some()
+        }),
+        Structure::Tiers(_) | Structure::Shear(_) | Structure::Given(_) => false,
     }
 }
 
 /// Drift of elastic buildings over that at yield.
 pub(super) fn elastic_drift(known: &Known<'_>, tally: &mut Tally<'_>) {
-    elastic(known, |times, _, name| {
+    elastic(known, |times, _, name, elastic| {
         tally.add(times, || {
             let text = format!(
-                "{} is elastic, but a drift of {:.1} % is {times:.1} times that at which frames yield",
+                "{} {elastic}, but a drift of {:.1} % is {times:.1} times that at which frames yield",
                 quoted(name),
                 100.0 * YIELD_DRIFT * times
             );
@@ -185,10 +226,10 @@ pub(super) fn elastic_drift(known: &Known<'_>, tally: &mut Tally<'_>) {
 
 /// Base shear of elastic buildings over their weight.
 pub(super) fn elastic_shear(known: &Known<'_>, tally: &mut Tally<'_>) {
-    elastic(known, |_, shear, name| {
+    elastic(known, |_, shear, name, elastic| {
         tally.add(shear, || {
             let text = format!(
-                "{} is elastic, but its base shear is {shear:.2} of its weight",
+                "{} {elastic}, but its base shear is {shear:.2} of its weight",
                 quoted(name)
             );
             (name.to_owned(), text)

@@ -4,7 +4,7 @@ use super::run_directly;
 use crate::interface::LinkElement;
 use crate::motion::GroundMotion;
 use crate::state::State;
-use crate::stepping::outcome::{Accuracy, OnProgress, Outcome, RunEnd, Settings};
+use crate::stepping::outcome::{Accuracy, OnProgress, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::peak_change::{change_of_parts, change_of_peaks};
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
@@ -46,6 +46,15 @@ fn coarsened(system: &System) -> f64 {
 /// the third then seems to be as far off as they are.
 fn most_in_vain(system: &System) -> u32 {
     if has_corners(system) { 2 } else { 1 }
+}
+
+/// Whether a run ended because its steps were too long for what yields or touches.
+fn diverged(outcome: &Outcome) -> bool {
+    use StepError::{ContactDiverged, SpringsDiverged};
+    matches!(
+        outcome.end,
+        RunEnd::Failed(SpringsDiverged { .. } | ContactDiverged { .. })
+    )
 }
 
 /// Weight of the energy imbalance in the error of a peak.
@@ -156,8 +165,25 @@ pub(in crate::stepping) fn within_tolerance(
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = further_runs;
         if outcome.end != RunEnd::Completed {
+            // Springs and contacts that long steps cannot resolve may follow shorter ones.
+            if before.end != RunEnd::Completed
+                && diverged(&outcome)
+                && refinements < MOST_REFINEMENTS
+            {
+                let finer = fine.refined(REFINEMENT[1], motion);
+                if finer.check_digits(system).is_ok() {
+                    refinements += 1;
+                    further_runs += 1;
+                    (before, coarse, fine) = (outcome, fine, finer);
+                    continue;
+                }
+            }
             // If a refinement is stopped or fails, the previous run is kept.
-            return if refinements > 0 { before } else { outcome };
+            return if before.end == RunEnd::Completed && refinements > 0 {
+                before
+            } else {
+                outcome
+            };
         }
         let change = Change::between(system, [&before, &outcome], [&coarse, &fine]);
         let rounding = rounding([&before, &outcome]);
