@@ -146,7 +146,7 @@ fn drift(summary: &Summary) -> Vec<Tile> {
         .buildings
         .iter()
         .any(|building| building.hinges.yielded > 0);
-    let left = yields.then(|| of(message::residual_drift_of_all(), &residual));
+    let left = yields.then(|| of(message::residual_drift(), &residual));
     let peak = of(message::greatest_drift(), &FloorSummary::greatest_drift);
     peak.into_iter().chain(left.flatten()).collect()
 }

@@ -261,7 +261,7 @@ messages! {
     capacity = "capacity";
     used = "used";
     peak_speed = "peak speed";
-    residual = "residual";
+    residual = "at the end";
     bearings = "bearings";
     links_and_dampers = "links and dampers";
     walls = "walls";
@@ -272,7 +272,7 @@ messages! {
     worst_bearing(number, count, along, across) = " Bearing {number} of {count} moves farthest. Peak forces of all: {along} along x, {across} across.";
     moves_on_its_bearings(name, moved) = "{name} moves {moved} on its bearings";
     share_of_limit(used, limit) = ", {used} % of their limit of {limit}";
-    they_dissipate_residual_displacement(damped, residual) = ". They dissipate {damped}. Residual displacement: {residual}.";
+    they_dissipate_residual_displacement(damped, residual) = ". They dissipate {damped}. Displacement at the end: {residual}.";
     a_stop_is_hit(force) = " Peak force on a stop: {force}.";
     travel_of(stage, went, travel) = "{stage} {went} of {travel}";
     stages_slide(stages) = " Their stages slide: {stages}.";
@@ -305,7 +305,7 @@ messages! {
     total_acceleration_title = "Total acceleration";
     storey_shear_title = "Storey shear";
     overturning_moment_title = "Overturning moment";
-    residual_drift = "Residual drift";
+    residual_drift = "Drift at the end";
     over_the_height(title) = "{title} over the height";
 
     // face_pressure
@@ -353,7 +353,7 @@ messages! {
     // hinges
     cracking_and_yielding_title = "Cracking and yielding";
     hinges_with_the_largest_ductility = "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above.";
-    residual_displacement_of_the_roof(residual) = "Residual displacement of the roof: {residual}.";
+    residual_displacement_of_the_roof(residual) = "Roof {residual} from its place at the end.";
     damage_of_building(name, damage, dissipated, residual) = "{name}: {damage}. {dissipated} dissipated. {residual}";
     cracked = "cracked";
     yielded = "yielded";
@@ -514,7 +514,6 @@ messages! {
     gap_needed(pair) = "Gap needed{pair}";
     gap_lacks(width, lacks) = "gap {width}, {lacks} too narrow";
     greatest_drift = "Greatest drift";
-    residual_drift_of_all = "Drift at the end";
     storey_of(name, storey) = "{name}, storey {storey}";
     members_beyond_capacity = "Members beyond capacity";
     worst_member(member, kind, ratio) = "{member} in {kind}: {ratio} times its capacity";

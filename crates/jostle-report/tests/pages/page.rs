@@ -283,10 +283,10 @@ fn what_yields_is_told_in_order() {
         row.contains(&format!("{first:.3}")),
         "the first row is the first to yield, at {first}: {row}"
     );
-    assert!(text.contains("Residual drift"), "drift is left");
+    assert!(text.contains("Drift at the end"), "drift is left");
     assert!(text.contains("Hinges of columns") && text.contains("Storeys"));
     assert!(text.contains("P-Delta of every column") && text.contains("footing mass"));
-    assert!(!render(&two_frames(0.1).page()).contains("Residual drift"));
+    assert!(!render(&two_frames(0.1).page()).contains("Drift at the end"));
 }
 
 #[test]

@@ -83,7 +83,7 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         (".base_torque_peak_n_m", "base torque"),
         (".ductility", "ductility"),
         (".capacity_ratio", "demand over capacity of members"),
-        (".residual_drift_peak", "residual drift"),
+        (".residual_drift_peak", "drift at the end"),
         (".storey_shear_peak_n", "storey shear"),
     ];
     // Peaks that are those along x, where a building has others.

@@ -430,7 +430,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.005, Note)],
         sources: &[JUDGEMENT],
-        remedy: "the building leans after the earthquake: count it as damaged, and the gap as narrower in the next one",
+        remedy: "the building leans after the earthquake, unless it still sways: count it as damaged, and the gap as narrower in the next one",
         measure: drift::residual,
     },
     Check {

@@ -680,14 +680,14 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
             "the tolerance of {tolerance:e} is not met: the estimated error of the peaks is {residual:.1e}, and they are sensitive to the time step; {remedy}"
         )
     });
-    let until = if residual > tolerance {
-        ""
+    let earlier = if residual > tolerance {
+        "impacts before that agree between two step sizes"
     } else {
-        ", and meet the tolerance"
+        "earlier results are reliable, and meet the tolerance"
     };
     let sensitive = sensitive_from.map(|from| {
         format!(
-            "results are sensitive from t = {from:.3} s: an error below the tolerance decides there whether a contact occurs, and later impacts and peaks depend on it; earlier results are reliable{until}"
+            "results are sensitive from t = {from:.3} s: an error below the tolerance decides there whether a contact occurs, and later impacts and peaks depend on it; {earlier}"
         )
     });
     missed.into_iter().chain(sensitive)

@@ -57,9 +57,13 @@ impl PromiseSummary {
             (Some(until), _) => format!(
                 "accuracy: {estimate} until t = {until:.3} s; sensitive from there: an error below the tolerance decides whether contacts occur"
             ),
-            (None, Some(from)) => format!(
-                "accuracy: {estimate}; sensitive from t = {from:.3} s; earlier peaks are reliable"
-            ),
+            (None, Some(from)) => {
+                let earlier = match self.met {
+                    Some(true) => "earlier peaks are reliable",
+                    _ => "impacts before that agree between two step sizes",
+                };
+                format!("accuracy: {estimate}; sensitive from t = {from:.3} s; {earlier}")
+            }
             (None, None) => format!("accuracy: {estimate}"),
         }
     }
