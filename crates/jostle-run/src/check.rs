@@ -113,8 +113,8 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
         &opened.system,
     ));
     for warning in &warnings {
-        let warning = in_shown_units(warning);
-        let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+        let shown = in_shown_units(warning);
+        let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
     }
     let notes = opened.input.assumptions();
     for assumption in &notes {
@@ -152,8 +152,8 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
         if let Some(warning) = opened.input.unusual_motion(&motion) {
-            let warning = in_shown_units(warning);
-            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+            let shown = in_shown_units(&warning);
+            let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
         let _ = describe_grounds(&mut text, &opened.system, &motion);
@@ -229,8 +229,8 @@ fn records(
         );
         if let Some(warning) = input.unusual_motion(&motion) {
             let warning = format!("{}: {warning}", motion.name);
-            let warning = in_shown_units(warning);
-            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+            let shown = in_shown_units(&warning);
+            let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
         listed.push(CheckedRecord {
