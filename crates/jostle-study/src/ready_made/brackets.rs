@@ -1,4 +1,4 @@
-//! Intensities that bracket the first impact, so that curves of fragility have both outcomes.
+//! Intensities that bracket the first impact under every record, so that curves of fragility have both outcomes.
 
 use jostle::{Pounding, RunEnd, Settings};
 use jostle_io::Input;
@@ -14,7 +14,11 @@ const USUAL: [f64; 2] = [0.2, 2.0];
 /// Multiples of the shaking of a model, evenly spaced by ratio, around those at which its gaps, as wide as these multiples of them,
 /// would close if the buildings stayed as stiff as in a run without contact.
 pub(super) fn shaking(input: &Input, widths: &[f64]) -> Vec<f64> {
-    let closing = closing_shakings(input).filter(|[least, most]| *least > 0.0 && most.is_finite());
+    let records = input.each_record().into_iter();
+    let closing = records
+        .filter_map(closing_shakings)
+        .filter(|[least, most]| *least > 0.0 && most.is_finite())
+        .reduce(|[least, most], [other, farther]| [least.min(other), most.max(farther)]);
     let [from, to] = closing.map_or(USUAL, |[least, most]| {
         let narrowest = widths.iter().copied().fold(f64::INFINITY, f64::min);
         let widest = widths.iter().copied().fold(0.0, f64::max);
@@ -25,10 +29,11 @@ pub(super) fn shaking(input: &Input, widths: &[f64]) -> Vec<f64> {
     all.map(two_digits).collect()
 }
 
-/// Shares of its shaking at which the first and the last gap of a model close; `None` if a run without contact does not end.
-fn closing_shakings(input: &Input) -> Option<[f64; 2]> {
-    let first = input.each_record().into_iter().next()?;
-    let prepared = CaseCache::default().assemble(first).ok()?;
+/// Shares of its shaking at which the first and the last gap of a model with one record close; `None` if a run without contact does
+/// not end.
+fn closing_shakings(input: Input) -> Option<[f64; 2]> {
+    let gaps = input.model.gaps.len();
+    let prepared = CaseCache::default().assemble(input).ok()?;
     let settings = Settings {
         pounding: Pounding::Excluded,
         ..prepared.settings(false)
@@ -46,7 +51,7 @@ fn closing_shakings(input: &Input) -> Option<[f64; 2]> {
         });
         shares.fold(f64::INFINITY, f64::min)
     };
-    let shares = (0..input.model.gaps.len()).map(share_of);
+    let shares = (0..gaps).map(share_of);
     // Gaps that hardly close say nothing.
     let shares: Vec<f64> = shares.filter(|share| *share < 100.0).collect();
     let least = shares.iter().copied().fold(f64::INFINITY, f64::min);
