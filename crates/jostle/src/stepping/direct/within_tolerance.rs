@@ -165,25 +165,22 @@ pub(in crate::stepping) fn within_tolerance(
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = further_runs;
         if outcome.end != RunEnd::Completed {
-            // Springs and contacts that long steps cannot resolve may follow shorter ones.
-            if before.end != RunEnd::Completed
-                && diverged(&outcome)
-                && refinements < MOST_REFINEMENTS
-            {
-                let finer = fine.refined(REFINEMENT[1], motion);
-                if finer.check_digits(system).is_ok() {
-                    refinements += 1;
-                    further_runs += 1;
-                    (before, coarse, fine) = (outcome, fine, finer);
-                    continue;
-                }
-            }
             // If a refinement is stopped or fails, the previous run is kept.
-            return if before.end == RunEnd::Completed && refinements > 0 {
-                before
-            } else {
-                outcome
-            };
+            if refinements > 0 && before.end == RunEnd::Completed {
+                return before;
+            }
+            // Springs and contacts that long steps cannot resolve may follow shorter ones.
+            let finer = fine.refined(REFINEMENT[1], motion);
+            if !diverged(&outcome)
+                || refinements == MOST_REFINEMENTS
+                || finer.check_digits(system).is_err()
+            {
+                return outcome;
+            }
+            refinements += 1;
+            further_runs += 1;
+            (before, coarse, fine) = (outcome, fine, finer);
+            continue;
         }
         let change = Change::between(system, [&before, &outcome], [&coarse, &fine]);
         let rounding = rounding([&before, &outcome]);
