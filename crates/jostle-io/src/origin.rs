@@ -14,6 +14,18 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
+    /// The value at a path, if it is there.
+    pub(crate) fn at(&self, path: &str) -> Option<&Value> {
+        let mut value = &self.root.value;
+        for key in path.split('.') {
+            let Value::Table(table) = value else {
+                return None;
+            };
+            value = &table.get(key)?.value;
+        }
+        Some(value)
+    }
+
     /// A fault of the value at a path, at its line; of the file if the path is empty.
     pub(crate) fn fault(&self, path: &str, problem: impl Into<String>) -> InputError {
         let (span, path) = locate(&self.root, path);

@@ -36,7 +36,7 @@ fn item(finding: &Finding) -> Markup {
     };
     html! {
         li data-grade=(finding.grade.word()) {
-            b { (grade) } " " (message::what_was_found(&in_shown_units(&finding.text), finding.id)) " "
+            b { (grade) } " " (message::what_was_found(in_shown_units(&finding.text), finding.id)) " "
             span.quiet { (message::what_to_do(format::capital(&in_shown_units(finding.remedy)))) }
         }
     }
