@@ -346,8 +346,8 @@ impl Input {
     pub fn with_line(&self, warning: &str) -> String {
         let path = warning.split_once(": ").map_or("", |(path, _)| path);
         let is_path = !path.is_empty() && !path.contains(|c: char| c.is_whitespace() || c == '"');
-        let (span, found) = locate(&self.origin.root, path);
-        if !is_path || found != path || span == (0..0) {
+        let (span, _) = locate(&self.origin.root, path);
+        if !is_path || span == (0..0) {
             return warning.to_owned();
         }
         let source = &self.origin.source;
@@ -484,6 +484,17 @@ impl Input {
                 .collect();
         }
         error
+    }
+
+    /// Whether a table of the list at a path of the file has a key.
+    #[must_use]
+    pub fn states_in_list(&self, list: &str, key: &str) -> bool {
+        let tables = match self.origin.at(list) {
+            Some(Value::List(tables)) => &tables[..],
+            _ => &[],
+        };
+        let mut tables = tables.iter();
+        tables.any(|table| matches!(&table.value, Value::Table(table) if table.get(key).is_some()))
     }
 
     /// An error about a field that only came to light after reading: it shows the line of the file.

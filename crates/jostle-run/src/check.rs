@@ -113,7 +113,8 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
         &opened.system,
     ));
     for warning in &warnings {
-        let warning = in_shown_units(warning);
+        let warning = opened.input.with_line(warning);
+        let warning = in_shown_units(&warning);
         let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
     }
     let notes = opened.input.assumptions();
@@ -152,8 +153,9 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
         if let Some(warning) = opened.input.unusual_motion(&motion) {
-            let warning = in_shown_units(warning);
-            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+            let shown = opened.input.with_line(&warning);
+            let shown = in_shown_units(&shown);
+            let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
         let _ = describe_grounds(&mut text, &opened.system, &motion);
@@ -229,8 +231,8 @@ fn records(
         );
         if let Some(warning) = input.unusual_motion(&motion) {
             let warning = format!("{}: {warning}", motion.name);
-            let warning = in_shown_units(warning);
-            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+            let shown = in_shown_units(&warning);
+            let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
         listed.push(CheckedRecord {
