@@ -81,7 +81,7 @@ plt.show()
 
 # %%
 (critical,) = jostle.critical_gap(pair)
-print(f"smallest gap without pounding: {critical.gap * 1e3:.1f} mm")
+print(f"gap needed: {critical.gap * 1e3:.1f} mm")
 for rule in critical.rules:
     print(f"{rule.rule:12} {rule.gap * 1e3:6.1f} mm")
 

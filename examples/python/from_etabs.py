@@ -27,7 +27,7 @@ result = jostle.run(pair.model)
 print(result)
 
 # %% [markdown]
-# The smallest gap without pounding, beside rules and codes, and a page with everything.
+# The gap needed, beside rules and codes, and a page with everything.
 
 # %%
 for joint in jostle.critical_gap(pair.model):

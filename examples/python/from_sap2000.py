@@ -31,7 +31,7 @@ result = jostle.run(model)
 print(result)
 
 # %% [markdown]
-# The smallest gap without pounding, and a page with everything.
+# The gap needed, and a page with everything.
 
 # %%
 for joint in jostle.critical_gap(model):

@@ -22,7 +22,7 @@ right = jostle.Shear("right", storeys=7, mass="150 t", stiffness="120 MN/m", sto
 motion = jostle.Motion.el_centro().scaled(pga="0.25 g").lasting("20 s")
 model = jostle.Model([left, right], jostle.Gap("50 mm"), motion=motion, title="My pair")
 
-# %% Without contact: the smallest gap without pounding.
+# %% Without contact: the gap needed.
 needed = jostle.run(model, without_contact=True).summary["gaps"][0]["closing_without_contact_m"]
 print(f"No pounding from {1e3 * needed:.1f} mm on.")
 

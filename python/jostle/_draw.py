@@ -393,7 +393,7 @@ def gap_html(gap: CriticalGap) -> str:
     """The smallest gap beside those of rules, and force over gap."""
     import numpy as np
 
-    rows = [("smallest gap without pounding", f"{1e3 * gap.gap:.2f}", "0", "")]
+    rows = [("gap needed", f"{1e3 * gap.gap:.2f}", "0", "")]
     if gap.reversed_gap is not None:
         rows.append(("the same, motion reversed", f"{1e3 * gap.reversed_gap:.2f}", "", ""))
     for rule in gap.rules:

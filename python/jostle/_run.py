@@ -67,7 +67,7 @@ def run(
         angle: angle in plan from x to the motion, counter-clockwise, of buildings with a plan: ``"30 deg"``, or radians.
         pounding: false runs the buildings without contact.
         without_contact: adds a second run without contact, as the command line does for its report; the summary
-            then includes the smallest gap without pounding.
+            then includes the gap needed.
         sensitivity: runs the model with both ends of the advised contact stiffness and with restitution ± 0.15 as well;
             ``result.summary["contact_sensitivity"]`` then has the spread of forces and the greatest changes of every building.
         record_interval: least time between recorded instants in free vibration, zero for every step (every step of a

@@ -482,7 +482,7 @@ class GapPoint:
 
 @dataclass(frozen=True)
 class CriticalGap:
-    """The smallest gap without pounding between two neighbours under one motion.
+    """The gap needed between two neighbours under one motion.
 
     Attributes:
         between: names of the neighbours.
@@ -533,7 +533,7 @@ def critical_gap(
     outcomes: bool = True,
     curve: int = 0,
 ) -> Answers[CriticalGap]:
-    """Returns the smallest gap without pounding, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
+    """Returns the gap needed, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
 
     Args:
         model: the model, or a model file.

@@ -81,9 +81,11 @@ impl City {
             )
         };
         let heading = format!(
-            "# Pair {pair}, draw {draw}: what the inventory does not say was drawn. No building's fate.\n# B1 is {}\n# B2 is {}\n",
+            "# Pair {pair}, draw {draw}: what the inventory does not say was drawn. No building's fate.\n# B1 is {}\n# B2 is {}\ntitle = \"Pair {pair}: {} and {}\"\n\n",
             told(left),
-            told(right)
+            told(right),
+            plain(&self.inventory.buildings[left].id),
+            plain(&self.inventory.buildings[right].id)
         );
         Ok(heading + &model(&row, &self.motion_table(pair, motion)?, TOLERANCE))
     }
@@ -130,6 +132,11 @@ impl City {
         }
         Ok(text)
     }
+}
+
+/// A name that ends no text of TOML.
+fn plain(name: &str) -> String {
+    name.chars().filter(|c| !c.is_control() && !matches!(c, '"' | '\\')).collect()
 }
 
 /// A record, and how it is read.

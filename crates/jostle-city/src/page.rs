@@ -430,7 +430,7 @@ impl City {
     }
 }
 
-/// Pairs, the most worrying first.
+/// Pairs, most critical first.
 fn ranked(answers: &Answers) -> Vec<usize> {
     let mut order: Vec<usize> = (0..answers.pairs.len()).collect();
     order.sort_by(|a, b| {

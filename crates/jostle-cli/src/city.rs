@@ -25,7 +25,7 @@ use crate::terminal;
 /// Steps from footprints to a map.
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum CityCommand {
-    /// Read footprints and say what they hold, what is mended and who stands beside whom, without writing anything
+    /// Read footprints and report contents, repairs and adjacent pairs, without writing anything
     Check(CheckArgs),
     /// Write buildings, pairs of neighbours and blocks as tables
     Pairs(PairsArgs),

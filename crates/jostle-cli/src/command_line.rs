@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::io::Write as _;
 
+use clap::error::ContextKind;
 use clap::{Parser, Subcommand};
 
 use crate::args::{
@@ -34,7 +35,12 @@ impl Args {
     pub(crate) fn from_arguments(
         arguments: impl IntoIterator<Item = OsString>,
     ) -> Result<Self, u8> {
-        Self::try_parse_from(arguments).map_err(|error| {
+        Self::try_parse_from(arguments).map_err(|mut error| {
+            // A code that is spelt similarly is that of another country.
+            let option = error.get(ContextKind::InvalidArg).map(ToString::to_string);
+            if option.is_some_and(|option| option.starts_with("--code")) {
+                error.remove(ContextKind::SuggestedValue);
+            }
             let printed = error.print().and_then(|()| std::io::stdout().flush());
             match terminal::unless_gone(printed) {
                 Err(failure) if !error.use_stderr() => crate::report(failure),
@@ -77,7 +83,7 @@ pub(crate) enum Command {
     Study(crate::study::StudyArgs),
     /// Fragility of classes of buildings (HAZUS, GEM) with and without pounding
     Classes(crate::classes::ClassesArgs),
-    /// Find the smallest gap without pounding, and compare it with rules and codes
+    /// Find the gap needed to avoid pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
     /// Find the smallest damper, gap or other input that meets given conditions, such as no impact
     Size(Box<crate::size::SizeArgs>),

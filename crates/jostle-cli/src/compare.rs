@@ -51,7 +51,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
         map_name: &args.map.display().to_string(),
     };
     let prepared = prepare_comparison(&opened, data)?;
-    terminal::warn_all(&prepared.prepared().input.warnings);
+    let input = &prepared.prepared().input;
+    terminal::warn_of_model(input, &input.warnings);
     let out = folder(args, &opened.name);
     if let Some(out) = &out {
         std::fs::create_dir_all(out).map_err(|error| {

@@ -86,7 +86,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         None => String::new(),
     };
     let heading = format!(
-        "{} – {}{place}: {} against {} at {} {}",
+        "{} ↔ {}{place}: {} against {} at {} {}",
         advice.between[0],
         advice.between[1],
         mass(advice.masses_kg[0]),

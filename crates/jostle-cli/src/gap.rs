@@ -98,14 +98,14 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         }
         title.clone_from(&opened.input.model.title);
         for warning in &opened.input.warnings {
-            note(&mut notes, warning);
+            note(&mut notes, &opened.input.with_line(warning));
         }
         let inputs = opened.input.each_record();
         let of = inputs.len() * records.len();
         for input in inputs {
             let (motion, _) = opened.plan_of(&input)?;
             if let Some(warning) = input.unusual_motion(&motion) {
-                note(&mut notes, &warning);
+                note(&mut notes, &input.with_line(&warning));
             }
             searched += 1;
             let prefix = match of {
@@ -118,7 +118,7 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
                 bar.show(done / (*of).max(1) as f64, || {
                     let runs = format!("{} of {of} runs", done.floor());
                     match between {
-                        Some(between) => format!("{}, {runs}", between.join(" – ")),
+                        Some(between) => format!("{}, {runs}", between.join(" ↔ ")),
                         None => runs,
                     }
                 });
@@ -266,10 +266,13 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
     for gap in found {
         text += &format!(
             "\n{}  under {}, {}\n",
-            gap.between.join(" – "),
+            gap.between.join(" ↔ "),
             gap.motion,
             GROUND_ACCELERATION.text(gap.pga_m_s2, 1)
         );
+        if gap.motion_is_reduced {
+            text += "  The motion is reduced (motion = \"reduced\" under [codes]), and so are the gap needed, ABS, SRSS and DDC.\n  Widths of codes are for the full motion: run it in full to compare them.\n";
+        }
         let bracket = match gap.pounding_at_m {
             Some(hit) => format!("at {} there is an impact", millimetres(hit)),
             None => "no impact even if they touch at rest".to_owned(),
@@ -278,7 +281,7 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
             format!(", {} with the motion reversed", required_width(reversed))
         });
         text += &format!(
-            "  smallest gap without pounding {}{reversed}  ({bracket}; {}, closest at {})\n",
+            "  gap needed {}{reversed}  ({bracket}; {}, closest at {})\n",
             jostle_run::styled(jostle_run::BOLD, &required_width(gap.gap_m)),
             counted(gap.runs, "run"),
             HEIGHT.text(gap.height_m, 2)
@@ -292,19 +295,30 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
                 100.0 * gap.damping[1]
             );
         }
-        text += "  rule                       gap    ÷ smallest   outcome with this gap, worse of both signs\n";
+        let has_outcomes = gap.rules.iter().any(|rule| rule.worse_outcome().is_some());
+        text += "  rule                       gap     ÷ needed";
+        text += match has_outcomes {
+            true => "   outcome with this gap, worse of both signs\n",
+            false => "\n",
+        };
         for (name, rule) in rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m)) {
             let ratio = rule
                 .ratio_of_both_signs
                 .or(rule.ratio)
                 .map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
             let led = outcome(rule);
-            text += &format!(
-                "  {name:<24} {:>9}   {ratio:>7}   {led}\n",
+            let line = format!(
+                "  {name:<24} {:>9}   {ratio:>7}   {led}",
                 required_width(rule.gap_m)
             );
+            text += line.trim_end();
+            text.push('\n');
         }
         text += &inputs(gap);
+    }
+    let mut pairs = found.iter().map(|gap| &gap.between);
+    if pairs.next().is_some_and(|first| pairs.any(|pair| pair != first)) {
+        text += "\nEach gap is searched while the others are out of reach: impacts at other gaps can make it close by more.\n";
     }
     let mut fewest = usize::MAX;
     for (pair, [most, mean, deviation], records) in sets(found) {
@@ -312,7 +326,7 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
         if records > 1 {
             text += &format!(
                 "\n{} over {}, the greater of both signs: greatest {}, mean {}, standard deviation {}\n",
-                pair.join(" – "),
+                pair.join(" ↔ "),
                 counted(records, "record"),
                 required_width(most),
                 required_width(mean),
@@ -322,7 +336,7 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
     }
     if fewest < FEW_RECORDS {
         text += &format!(
-            "\n{} no design value: codes want 3, 7 or 11 records.",
+            "\n{} no design value: codes require 3, 7 or 11 records.",
             match fewest {
                 1 => "One record is".to_owned(),
                 several => format!("{} are", counted(several, "record")),

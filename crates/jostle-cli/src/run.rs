@@ -72,9 +72,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     }
     let gradients = wanted_gradients(args)?;
     let of_model = opened.input.warnings.len();
-    terminal::warn_all(&opened.input.warnings);
+    terminal::warn_of_model(&opened.input, &opened.input.warnings);
     let prepared = opened.prepare()?;
-    terminal::warn_all(&prepared.input.warnings[of_model..]);
+    terminal::warn_of_model(&prepared.input, &prepared.input.warnings[of_model..]);
     if args.force {
         terminal::warn_all(&prepared.lost_digits());
     } else {

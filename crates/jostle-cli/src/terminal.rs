@@ -4,7 +4,7 @@
 use std::io::{ErrorKind, IsTerminal, Write};
 
 use anstyle::{AnsiColor, Style};
-use jostle_io::in_shown_units;
+use jostle_io::{Input, in_shown_units};
 use jostle_run::{LOUD, styled};
 
 use crate::failure::Failure;
@@ -62,6 +62,13 @@ pub(crate) fn error(text: &str) {
 /// Whether a person watches standard error.
 pub(crate) fn is_watched() -> bool {
     std::io::stderr().is_terminal()
+}
+
+/// Prints warnings about a model to standard error, one line each, with the lines of the file that they are about.
+pub(crate) fn warn_of_model(input: &Input, warnings: &[String]) {
+    for warning in warnings {
+        warn(&input.with_line(warning));
+    }
 }
 
 /// Prints warnings to standard error, one line each.

@@ -48,6 +48,16 @@ impl std::error::Error for InputError {}
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let [fault] = &self.faults[..]
+            && fault.place.is_none()
+            && self.more == 0
+        {
+            // The file as a whole.
+            return match &fault.remedy {
+                Some(remedy) => write!(f, "{}\n  help: {remedy}", headline(&self.name, fault)),
+                None => f.write_str(&headline(&self.name, fault)),
+            };
+        }
         for fault in &self.faults {
             write_fault(f, &self.name, fault)?;
         }
@@ -60,15 +70,19 @@ impl fmt::Display for InputError {
     }
 }
 
+/// The file with line and column, the field and the problem.
+fn headline(name: &str, fault: &Fault) -> String {
+    let place = fault.place.as_ref();
+    let place = place.map_or_else(String::new, |at| format!(":{}:{}", at.line, at.column));
+    let path = match fault.path.is_empty() {
+        true => String::new(),
+        false => format!(": {}", fault.path),
+    };
+    format!("{name}{place}{path}: {}", fault.problem)
+}
+
 fn write_fault(f: &mut fmt::Formatter<'_>, name: &str, fault: &Fault) -> fmt::Result {
-    write!(f, "{name}")?;
-    if let Some(place) = &fault.place {
-        write!(f, ":{}:{}", place.line, place.column)?;
-    }
-    if !fault.path.is_empty() {
-        write!(f, ": {}", fault.path)?;
-    }
-    writeln!(f, ": {}", fault.problem)?;
+    writeln!(f, "{}", headline(name, fault))?;
     if let Some(place) = &fault.place {
         write_line(f, place)?;
     }

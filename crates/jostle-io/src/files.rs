@@ -83,6 +83,15 @@ impl Files {
         Self::new(Path::new(""), Allowed::Held(Arc::new(files)))
     }
 
+    /// In words, from where relative names start.
+    pub(crate) fn place_in_words(&self) -> String {
+        match (&self.allowed, self.folder.as_os_str().is_empty()) {
+            (Allowed::Held(_), _) => "among the given files".to_owned(),
+            (_, true) => "in the current folder".to_owned(),
+            (_, false) => format!("in the folder {}", self.folder.display()),
+        }
+    }
+
     fn new(folder: &Path, allowed: Allowed) -> Self {
         Self {
             folder: folder.to_owned(),

@@ -784,7 +784,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Brace, "hinge", Kind::TableOf(&[S::LinkHinge, S::Buckling]), "Axial force at which it yields, alike in tension and compression, or buckles, with the rule buckling; without it the brace is elastic."),
     default(S::Infill, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
     optional(S::Infill, "modulus", Quantity(D::Modulus), "Modulus of elasticity of the masonry along the strut; with thickness and width.").usual("a modulus of masonry", 1e8, 5e10),
-    optional(S::Infill, "thickness", Quantity(D::Length), "Thickness of the panel.").usual("a thickness of a panel", 0.03, 1.5),
+    optional(S::Infill, "thickness", Quantity(D::Length), "Thickness of the panel.").usual("a thickness of a panel", 0.03, 1.5).possible(0.001, 10.0),
     optional(S::Infill, "width", Kind::ChoiceOr(STRUT_WIDTHS, D::Length), "Width of the strut across its axis, or a rule for it from the bay between axes, the panel and the columns beside it.").usual("a width of a strut", 0.1, 6.0),
     optional(S::Infill, "stiffness", Quantity(D::Stiffness), "Axial force per shortening of one strut, instead of modulus, thickness and width.").usual("an axial stiffness", 1e5, 1e11),
     optional(S::Infill, "strength", Kind::Table(S::InfillStrength), "Strengths of the masonry, from which the strut cracks, loses force and pinches by backbone; without strength and force it stays elastic."),

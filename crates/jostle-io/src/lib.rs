@@ -20,6 +20,7 @@ mod fault;
 mod files;
 mod floor_table;
 mod grade;
+mod json_remedies;
 mod keys;
 mod knobs;
 mod matrices;

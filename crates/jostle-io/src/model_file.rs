@@ -341,6 +341,19 @@ impl Input {
         self.accepted.covers(path)
     }
 
+    /// A warning about a field of the file, with the name of the file and the line before it; another text as it is.
+    #[must_use]
+    pub fn with_line(&self, warning: &str) -> String {
+        let path = warning.split_once(": ").map_or("", |(path, _)| path);
+        let is_path = !path.is_empty() && !path.contains(|c: char| c.is_whitespace() || c == '"');
+        let (span, _) = locate(&self.origin.root, path);
+        if !is_path || span == (0..0) {
+            return warning.to_owned();
+        }
+        let source = &self.origin.source;
+        format!("{}:{}: {warning}", source.name, source.place(&span).line)
+    }
+
     /// Adds a warning about a field once, unless its unusual values are accepted.
     pub(crate) fn warn(&mut self, path: &str, text: &str) {
         let warning = format!("{path}: {text}");
@@ -471,6 +484,17 @@ impl Input {
                 .collect();
         }
         error
+    }
+
+    /// Whether a table of the list at a path of the file has a key.
+    #[must_use]
+    pub fn states_in_list(&self, list: &str, key: &str) -> bool {
+        let tables = match self.origin.at(list) {
+            Some(Value::List(tables)) => &tables[..],
+            _ => &[],
+        };
+        let mut tables = tables.iter();
+        tables.any(|table| matches!(&table.value, Value::Table(table) if table.get(key).is_some()))
     }
 
     /// An error about a field that only came to light after reading: it shows the line of the file.
@@ -637,9 +661,10 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
         soil,
         analysis,
     };
+    let fields = reader.get(&view, "gap").and_then(|field| field.entries());
+    let fields = fields.unwrap_or_default();
+    gap::check_doubles(reader, &fields, &model);
     if model.is_in_space() {
-        let fields = reader.get(&view, "gap").and_then(|field| field.entries());
-        let fields = fields.unwrap_or_default();
         gap::for_all_neighbours(reader, &fields, &at, &mut model);
         plan::check_widths(reader, &mut model, &fields);
     }

@@ -187,10 +187,12 @@ pub enum MotionError {
         names: Vec<String>,
     },
     /// Neither a built-in record nor a file.
-    #[error("there is no record \"{}\"{}; built-in records: {}", printable(name), remedy(name, .nearest), builtin::record_names())]
+    #[error("there is no record \"{}\" {folder}{}; built-in records: {}", printable(name), remedy(name, .nearest), builtin::record_names())]
     NotFound {
         /// Name as written.
         name: String,
+        /// Where it was looked for, in words.
+        folder: String,
         /// Built-in names and files that are spelt similarly.
         nearest: Vec<String>,
     },
@@ -486,6 +488,7 @@ fn find_record(
     if !files.has(name).map_err(|found| error(found.into()))? {
         return Err(MotionError::NotFound {
             name: name.to_owned(),
+            folder: files.place_in_words(),
             nearest: similar_names(name, files),
         });
     }

@@ -14,6 +14,21 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
+    /// The value at a path, if it is there.
+    pub(crate) fn at(&self, path: &str) -> Option<&Value> {
+        let parts = path
+            .split(['.', '['])
+            .map(|part| part.trim_end_matches(']'));
+        parts.into_iter().try_fold(&self.root.value, |value, part| {
+            let node = match value {
+                Value::Table(table) => table.get(part)?,
+                Value::List(list) => list.get(part.parse::<usize>().ok()?)?,
+                _ => return None,
+            };
+            Some(&node.value)
+        })
+    }
+
     /// A fault of the value at a path, at its line; of the file if the path is empty.
     pub(crate) fn fault(&self, path: &str, problem: impl Into<String>) -> InputError {
         let (span, path) = locate(&self.root, path);

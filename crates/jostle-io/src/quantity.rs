@@ -224,14 +224,19 @@ fn suggestion(nearest: &Option<String>) -> String {
         .map_or_else(String::new, |unit| format!(" (did you mean \"{unit}\"?)"))
 }
 
-/// Explains the one unit with two common meanings.
-fn hint(expected: Dimension, found: &str) -> &'static str {
-    if expected.is_mass_like()
-        && split_number(found).is_some_and(|(_, unit)| unit.trim().starts_with('g'))
-    {
-        "; g is the acceleration of gravity, write kg or t"
-    } else {
-        ""
+/// Explains the one unit with two common meanings, and loads per area.
+fn hint(expected: Dimension, found: &str) -> String {
+    let (number, unit) = split_number(found).unwrap_or((0.0, ""));
+    if expected.is_mass_like() && unit.trim().starts_with('g') {
+        return "; g is the acceleration of gravity, write kg or t".to_owned();
+    }
+    let per_area = unit.trim().strip_suffix("/m2").or(unit.trim().strip_suffix("/m²"));
+    match per_area.filter(|_| expected == Dimension::LineMass) {
+        Some(load) => format!(
+            "; multiply by the tributary width: \"{} {load}/m\" for a strip of 6 m",
+            show_number(6.0 * number)
+        ),
+        None => String::new(),
     }
 }
 

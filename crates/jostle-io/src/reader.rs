@@ -1,17 +1,22 @@
 //! Typed access to the value tree. A fault is noted and reading goes on, so that all faults are found at once.
 
+use std::path::Path;
+
 use crate::fault::{Fault, InputError};
 use crate::grade::{ConcreteGrade, cylinder_strength};
 use crate::keys::{Section, keys_of, range_of};
 use crate::nearest::nearest;
-use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
+use crate::json_remedies::in_json;
+use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten, show_number};
 use crate::source::{Source, Span};
-use crate::tree::{Node, Table, Value};
+use crate::tree::{Format, Node, Table, Value};
 use crate::unusual::{Accepted, Range, Verdict, Written};
 use jostle::linear::sort_by_key;
 
 /// Faults of a file that are kept; beyond that, they are counted.
 const MOST_FAULTS: usize = 500;
+/// No concrete and no steel is weaker \[Pa\].
+const LEAST_STRENGTH: f64 = 1e5;
 
 /// Collects the faults of one file.
 pub(crate) struct Reader<'s> {
@@ -175,12 +180,23 @@ impl<'s> Reader<'s> {
         *self.fault(&view.span.clone(), path, "is missing") = Some(remedy.into());
     }
 
+    /// The line on which a span begins, from 1.
+    pub(crate) fn line(&self, span: &Span) -> usize {
+        self.source.place(span).line
+    }
+
     /// All that was noted, in the order of the file.
     pub(crate) fn into_error(mut self) -> InputError {
         sort_by_key(&mut self.faults, |(start, _)| *start);
+        let mut faults: Vec<Fault> = self.faults.into_iter().map(|(_, fault)| fault).collect();
+        if Format::of_path(Path::new(&self.source.name)) == Format::Json {
+            for remedy in faults.iter_mut().filter_map(|fault| fault.remedy.as_mut()) {
+                *remedy = in_json(remedy);
+            }
+        }
         InputError {
             name: self.source.name.clone(),
-            faults: self.faults.into_iter().map(|(_, fault)| fault).collect(),
+            faults,
             more: self.more,
         }
     }
@@ -414,9 +430,15 @@ impl<'s> Reader<'s> {
             .as_text()
             .is_some_and(|text| text.starts_with(|first: char| first.is_ascii_alphabetic()));
         if !looks_like_a_grade {
-            return self
-                .positive(field, Dimension::Modulus)
-                .map(Grade::Strength);
+            let strength = self.positive(field, Dimension::Modulus)?;
+            let bare = Written::from_node(field.node, strength).without_unit();
+            if let Some(number) = bare.filter(|_| strength < LEAST_STRENGTH) {
+                let number = show_number(number);
+                *self.bad(field, format!("{number} has no unit")) =
+                    Some(format!("write \"{number} MPa\""));
+                return None;
+            }
+            return Some(Grade::Strength(strength));
         }
         let before = self.faults.len();
         let named = self.choice(field, grades, &[]).map(Grade::Named);
@@ -440,8 +462,33 @@ impl<'s> Reader<'s> {
                 *self.bad(field, problem) = Some(remedy);
                 None
             }
-            None => self.choice(field, grades, &[]).map(ConcreteGrade::Named),
+            None => {
+                let before = self.faults.len();
+                let named = self.choice(field, grades, &[]);
+                self.mention_cylinders(before, field);
+                named.map(ConcreteGrade::Named)
+            }
         }
+    }
+
+    /// Says how a cylinder strength is written, at a fault that was noted since `before`.
+    fn mention_cylinders(&mut self, before: usize, field: &Field<'_>) {
+        let Some((_, fault)) = self.faults.get_mut(before) else {
+            return;
+        };
+        let text = field.as_text().unwrap_or_default();
+        let is_strength = parse_quantity(text, Dimension::Modulus).is_ok();
+        let example = match is_strength && text.ends_with(|end: char| end.is_alphabetic()) {
+            true => format!("f'c = {}", text.trim()),
+            false => "f'c = 4 ksi".to_owned(),
+        };
+        let cylinder = format!("a cylinder strength is written \"{example}\"");
+        // Only names that begin like a grade are slips of one.
+        let meant = fault.remedy.take().filter(|_| text.starts_with(['C', 'c']));
+        fault.remedy = Some(match meant {
+            Some(meant) => format!("{meant} Or {cylinder}"),
+            None => cylinder,
+        });
     }
 
     /// Concrete: as [`Self::concrete_name`], or a prismatic strength.
@@ -453,10 +500,13 @@ impl<'s> Reader<'s> {
         if field.as_text().and_then(cylinder_strength).is_some() {
             return self.concrete_name(field, grades);
         }
-        match self.grade(field, grades, "\"30 MPa\"")? {
-            Grade::Named(name) => Some(ConcreteGrade::Named(name)),
-            Grade::Strength(strength) => Some(ConcreteGrade::Prismatic(strength)),
-        }
+        let before = self.faults.len();
+        let read = self.grade(field, grades, "\"30 MPa\"");
+        self.mention_cylinders(before, field);
+        Some(match read? {
+            Grade::Named(name) => ConcreteGrade::Named(name),
+            Grade::Strength(strength) => ConcreteGrade::Prismatic(strength),
+        })
     }
 
     /// One of several words; `later` are those of other versions of the format.
@@ -515,6 +565,14 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
             return format!("this key belongs to buildings of kind = \"{kind}\"");
         }
     }
+    if sections == [Section::Root] {
+        let mut tables = TABLES_OF_ROOT.iter();
+        if let Some((_, table)) =
+            tables.find(|(section, _)| keys_of(&[*section]).any(|known| known.name == key))
+        {
+            return format!("{key} belongs under [{table}]");
+        }
+    }
     if sections == [Section::Beam] && key == "mass" {
         return "the mass on the beams is beam_mass of the building".into();
     }
@@ -526,6 +584,15 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
         }
     }
 }
+
+/// Tables of which a file has one, the likeliest first.
+const TABLES_OF_ROOT: [(Section, &str); 5] = [
+    (Section::Output, "output"),
+    (Section::Motion, "motion"),
+    (Section::Analysis, "analysis"),
+    (Section::Codes, "codes"),
+    (Section::Report, "report"),
+];
 
 /// Words for what other programs join floors with.
 const NOT_MEMBERS: [&str; 6] = ["brace", "braces", "infill", "infills", "wall", "strut"];

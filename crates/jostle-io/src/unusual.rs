@@ -214,6 +214,11 @@ impl Written {
         }
     }
 
+    /// The number, if it was written without unit.
+    pub(crate) fn without_unit(self) -> Option<f64> {
+        self.is_bare.then_some(self.number)
+    }
+
     /// As written in the file; `value` is the same in SI.
     pub(crate) fn from_node(node: &Node, value: f64) -> Self {
         match &node.value {

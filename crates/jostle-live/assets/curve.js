@@ -279,7 +279,7 @@ function knownMarks() {
   return width > 0 ? [{ name: say("no_pounding"), source: say("greatest_closing_without_contact"), width, needed: true }] : [];
 }
 
-/** The smallest gap without pounding, and rules, as lines with letters; their names stand below the curve. */
+/** The gap needed, and rules, as lines with letters; their names stand below the curve. */
 function drawMarks(image, px) {
   const list = byId("curve-marks");
   list.replaceChildren();

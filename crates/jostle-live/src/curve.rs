@@ -255,13 +255,13 @@ pub(crate) fn marks(
     let mut marks = Vec::new();
     for gap in &found {
         let pair = if found.len() > 1 {
-            format!(", {}–{}", gap.between[0], gap.between[1])
+            format!(", {} ↔ {}", gap.between[0], gap.between[1])
         } else {
             String::new()
         };
         marks.push(Mark {
             name: format!("no pounding{pair}"),
-            source: "smallest gap without pounding under this motion".into(),
+            source: "gap needed under this motion".into(),
             width: gap.gap_m,
             needed: true,
         });

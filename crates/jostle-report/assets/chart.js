@@ -214,8 +214,11 @@ class TimeChart {
     });
     for (const { value } of [...this.levels, ...this.dots]) high = Math.max(high, value);
     if (high - low < 1e-9) return [0, 1];
-    const room = 0.06 * (high - low);
-    return [low < 0 ? low - room : 0, high + room];
+    // Whole discs are seen, at the top and at zero.
+    const radius = Math.max(0, ...this.dots.map(({ size }) => size));
+    const room = Math.max(0.06, (1.3 * radius) / (this.height - margin.top - margin.bottom)) * (high - low);
+    const isCut = this.dots.some(({ value }) => value < low + room);
+    return [low < 0 || isCut ? low - room : 0, high + room];
   }
 
   drawGrid() {

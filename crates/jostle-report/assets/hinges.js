@@ -41,8 +41,9 @@ function markOutline(stage, x, y, size) {
 /** The legend below the buildings, with counts that follow the clock. */
 class HingeLegend {
   constructor(host) {
-    if (!host || !hinges.length) return host?.replaceChildren();
-    host.replaceChildren();
+    host?.replaceChildren();
+    if (host && page.buildings.some((building) => building.diagonals?.some((own) => own.stage > 0))) html("span", "key", say("struts_of_the_whole_run"), host);
+    if (!host || !hinges.length) return;
     const named = page.buildings.length > 1;
     this.rows = stageNames.map((name, stage) => {
       const key = html("span", "key", undefined, host);

@@ -67,6 +67,7 @@ class Scene {
         ghost: svg("path", { class: "ghost" }, group),
         bearings: svg("path", { class: "bearings" }, group),
         panels: svg("path", { class: "panels" }, group),
+        struts: [1, 2].map((stage) => svg("path", { class: `strut-${stage}` }, group)),
         walls: svg("path", { class: "panels" }, group),
         braces: svg("path", { class: "braces" }, group),
         columns: svg("path", { class: "columns" }, group),
@@ -240,10 +241,18 @@ class Scene {
       const label = { class: "dimension-name", x: at[0], y: at[1], "text-anchor": "middle", transform: `rotate(-90 ${at[0]} ${at[1]})` };
       svg("text", label, back).textContent = text;
     };
-    const equal = storeys.every((storey) => Math.abs(storey - storeys[0]) < 1e-6);
+    // Equal storeys above each other share a label.
+    const runs = [];
+    storeys.forEach((storey, k) => {
+      const last = runs.at(-1);
+      if (last && Math.abs(storey - last.storey) < 1e-6) last.count += 1;
+      else runs.push({ storey, count: 1, from: heights[k] });
+    });
     const middle = (foot + roof) / 2;
-    if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} ${unitOf("m").name} = ${metres(roof - foot)} ${unitOf("m").name}` : `${metres(roof - foot)} ${unitOf("m").name}`, middle);
-    else if (storeys.every((storey) => storey * this.scale > 24)) storeys.forEach((storey, k) => write(`${metres(storey)}`, heights[k] + storey / 2));
+    const label = ({ storey, count }) => (count > 1 ? `${count} × ${metres(storey)}` : metres(storey));
+    const fits = (run) => run.count * run.storey * this.scale > Math.max(24, 6.2 * label(run).length);
+    if (runs.length === 1) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} ${unitOf("m").name} = ${metres(roof - foot)} ${unitOf("m").name}` : `${metres(roof - foot)} ${unitOf("m").name}`, middle);
+    else if (runs.every(fits)) runs.forEach((run) => write(label(run), run.from + (run.count * run.storey) / 2));
     else write(say("roof_and_storeys", { height: metres(roof - foot), storeys: storeys.length }), middle);
   }
 
@@ -395,6 +404,11 @@ class Scene {
     const panels = diagonals.filter((own) => own.infill && own.lines[0] < own.lines[1]);
     const panel = ({ storey, lines: [left, right] }) => `M${at(left, storey - 1)}L${at(right, storey - 1)}L${at(right, storey)}L${at(left, storey)}z`;
     part.panels.setAttribute("d", panels.map(panel).join(""));
+    // Struts by what they went through in the whole run.
+    part.struts.forEach((path, k) => {
+      const struts = this.marked ? diagonals.filter((own) => own.stage === k + 1) : [];
+      path.setAttribute("d", struts.map(({ storey, lines: [low, high] }) => `M${at(low, storey - 1)}L${at(high, storey)}`).join(""));
+    });
   }
 
   /** Walls as shaded strips as wide as they are long, up one face and down the other. */

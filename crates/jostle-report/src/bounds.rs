@@ -28,7 +28,7 @@ pub(crate) fn section(page: &Page) -> Markup {
                         (row(&message::storey_shear_of_kn(&own.name), &own.storey_shear_n, kilonewtons))
                     }
                     @for own in &found.gaps {
-                        @let between = format!("{}–{}", own.between[0], own.between[1]);
+                        @let between = format!("{} ↔ {}", own.between[0], own.between[1]);
                         (row(&message::peak_force_between_kn(&between), &own.peak_force_n, kilonewtons))
                         (row(&message::impacts_between(&between), &own.impact_count, |count| format::fixed(count, 0)))
                         @if let Some(needed) = &own.closing_without_contact_m { (row(&message::gap_needed_between_mm(&between), needed, millimetres)) }

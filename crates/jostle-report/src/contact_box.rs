@@ -55,7 +55,7 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                         tbody {
                             @for row in boxes {
                                 tr {
-                                    th scope="row" { (row.between[0]) " – " (row.between[1]) }
+                                    th scope="row" { (row.between[0]) " ↔ " (row.between[1]) }
                                     td { (row.law) }
                                     td.number { (stiffness_used(row)) }
                                     @if row.is_hertzian {

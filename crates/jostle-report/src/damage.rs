@@ -1,8 +1,8 @@
 //! What cracked, yielded and buckled, each in its own words: hinges, braces, and struts of panels.
 
-use jostle::hysteresis::{BackboneSide, HysteresisRule, Side};
+use jostle::hysteresis::{HysteresisRule, Side};
 use jostle::model::{Building, Diagonal, DiagonalKind, Structure};
-use jostle::results::summary::{BuildingSummary, SpringSummary};
+use jostle::results::summary::{BuildingSummary, PartSummary, SpringSummary};
 use jostle::structure::{Discretization, SpringPlace};
 
 use crate::{format, message};
@@ -128,28 +128,27 @@ fn diagonals(model: &Building) -> Vec<Diagonal> {
     }
 }
 
-/// Struts of panels, by the corners of their curves that the greatest compression has passed.
-fn struts(model: &Building, summary: &BuildingSummary) -> Option<Damage> {
-    let mut diagonals = diagonals(model);
-    diagonals.retain(|diagonal| diagonal.place.kind == DiagonalKind::Infill);
+/// Struts of panels with a curve, by the corners that their greatest compression has passed: `None` for elastic ones, 0 to 2.
+pub(crate) fn strut_stages(model: &Building, summary: &BuildingSummary) -> Vec<Option<u8>> {
+    let mut struts = diagonals(model);
+    struts.retain(|diagonal| diagonal.place.kind == DiagonalKind::Infill);
     let parts = summary.parts.iter().filter(|part| part.kind == "infill");
-    let struts: Vec<_> = diagonals.iter().zip(parts).collect();
-    let passed = |of: fn(&BackboneSide) -> f64| {
-        let passed = struts.iter().filter(|(candidate, part)| {
-            candidate.hysteresis.is_some_and(|hysteresis| {
-                part.deformation_min >= of(hysteresis.backbone().side(Side::Negative))
-            })
-        });
-        passed.count()
+    let stage = |(strut, part): (&Diagonal, &PartSummary)| {
+        let curve = *strut.hysteresis?.backbone().side(Side::Negative);
+        let corners = [curve.cracking, curve.yielding].into_iter();
+        let passed = corners.filter(|corner| part.deformation_min >= corner.deformation);
+        Some(passed.count() as u8)
     };
-    let all = struts
-        .iter()
-        .filter(|(strut, _)| strut.hysteresis.is_some());
-    let all = all.count();
-    (all > 0).then(|| Damage {
+    struts.iter().zip(parts).map(stage).collect()
+}
+
+fn struts(model: &Building, summary: &BuildingSummary) -> Option<Damage> {
+    let stages: Vec<u8> = strut_stages(model, summary).into_iter().flatten().collect();
+    let passed = |least: u8| stages.iter().filter(|stage| **stage >= least).count();
+    (!stages.is_empty()).then(|| Damage {
         name: message::struts_cracked(),
-        count: [passed(|curve| curve.cracking.deformation), all],
+        count: [passed(1), stages.len()],
         first_s: None,
-        note: message::crushed_of_struts(passed(|curve| curve.yielding.deformation)),
+        note: message::crushed_of_struts(passed(2)),
     })
 }

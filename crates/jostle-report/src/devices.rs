@@ -245,7 +245,7 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
     let pair = if left == right {
         left.clone()
     } else {
-        format!("{left}–{right}")
+        format!("{left} ↔ {right}")
     };
     let place = match floor.floors {
         [Some(left), Some(right)] => message::floors_left_right(left, right),

@@ -10,7 +10,10 @@ pub(crate) struct DiagonalData {
     /// Column lines of its lower and its upper end, from 0; lines that cross its own in a space frame.
     lines: [usize; 2],
     /// Whether it is part of a panel.
-    infill: bool,
+    pub(crate) infill: bool,
+    /// Of a strut of a panel with a curve: 1 if it cracked in the run, 2 if it reached its strength.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) stage: Option<u8>,
     /// Its lower and its upper end on the site, in a space frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<[[f64; 2]; 2]>,
@@ -45,6 +48,7 @@ impl DiagonalData {
             storey: diagonal.place.storey,
             lines: diagonal.place.lines(),
             infill: diagonal.place.kind == DiagonalKind::Infill,
+            stage: None,
             ends: None,
         }
     }

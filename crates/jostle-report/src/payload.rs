@@ -5,12 +5,13 @@ use jostle::history::{Column, EnergyTerm, History, Kind, Owner};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
-use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
+use jostle::results::summary::{BuildingSummary, ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
 use jostle::system::Direction;
 use serde::Serialize;
 
 use crate::Page;
+use crate::damage::strut_stages;
 use crate::devices::{self, side_column};
 use crate::drawn_members::{DiagonalData, MemberData, WallData};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
@@ -282,7 +283,7 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     let walls = walls::walls(page);
     let payload = Payload {
         duration: duration(page, &time),
-        buildings: page.model.buildings.iter().map(outline).collect(),
+        buildings: outlines(page),
         gaps: gaps(page, &walls),
         links: links(page, &walls),
         ground: ground(page.motion, budget.ground, pack),
@@ -445,7 +446,13 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
     }
 }
 
-fn outline(building: &Building) -> Outline<'_> {
+fn outlines<'a>(page: &Page<'a>) -> Vec<Outline<'a>> {
+    let buildings = page.model.buildings.iter();
+    let buildings = buildings.zip(&page.summary.buildings);
+    buildings.map(|(building, summary)| outline(building, summary)).collect()
+}
+
+fn outline<'a>(building: &'a Building, summary: &BuildingSummary) -> Outline<'a> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
     let (frame, spans) = match &building.structure {
@@ -491,7 +498,14 @@ fn outline(building: &Building) -> Outline<'_> {
         let diagonals = frame.diagonals.iter();
         diagonals.map(|diagonal| DiagonalData::in_space(frame, diagonal))
     });
+    let mut stages = strut_stages(building, summary).into_iter();
     let diagonals = of_plane.map(DiagonalData::of).chain(of_space);
+    let diagonals = diagonals.map(|mut diagonal| {
+        if diagonal.infill {
+            diagonal.stage = stages.next().flatten();
+        }
+        diagonal
+    });
     let footing = building.base.foundation;
     Outline {
         plans,

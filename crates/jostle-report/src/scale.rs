@@ -91,7 +91,7 @@ impl Scale {
     }
 
     /// Numbers with their positions.
-    fn placed(&self) -> impl Iterator<Item = (f64, f64, String)> + '_ {
+    pub(crate) fn placed(&self) -> impl Iterator<Item = (f64, f64, String)> + '_ {
         let placed = |number: &f64| (*number, self.at(*number * self.unit), self.text(*number));
         self.numbers.iter().map(placed)
     }

@@ -108,7 +108,7 @@ fn row(name: &str, [result, least, greatest]: [f64; 3], text: impl Fn(f64) -> St
 
 fn named(name: &str, gap: &GapSpread, several: bool) -> String {
     if several {
-        format!("{}–{}, {name}", gap.between[0], gap.between[1])
+        format!("{} ↔ {}, {name}", gap.between[0], gap.between[1])
     } else {
         name.to_owned()
     }

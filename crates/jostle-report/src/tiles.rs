@@ -64,10 +64,7 @@ fn tile(name: impl Into<String>, value: impl Into<String>, note: impl Into<Strin
 
 /// The gap that is needed beside that which there is; of many gaps, the one that lacks most.
 fn gaps(summary: &Summary) -> Vec<Tile> {
-    let lacking = |gap: &GapSummary| {
-        gap.closing_without_contact_m
-            .map(|closing| closing - width(gap))
-    };
+    let lacking = |gap: &GapSummary| needed(summary, gap).map(|closing| closing - width(gap));
     let all = summary.gaps.iter();
     let shown: Vec<&GapSummary> = if summary.gaps.len() <= MOST_EACH {
         all.collect()
@@ -81,32 +78,42 @@ fn gaps(summary: &Summary) -> Vec<Tile> {
     let tiles = shown.into_iter().map(|gap| {
         let pair = match summary.gaps.len() {
             1 => String::new(),
-            _ => format!(", {}–{}", gap.between[0], gap.between[1]),
+            _ => format!(", {} ↔ {}", gap.between[0], gap.between[1]),
         };
         let there = format::millimetres(width(gap));
-        match gap.closing_without_contact_m {
-            Some(needed) if needed > width(gap) => {
-                let lacks = format::millimetres(needed - width(gap));
-                let note = message::gap_lacks(there, lacks);
-                tile(
-                    message::gap_needed(&pair),
-                    format::millimetres(needed),
-                    note,
-                )
-            }
+        let bounds = match bounded(summary, gap) {
+            Some(_) => message::over_the_bounds_of_bearings(),
+            None => "",
+        };
+        match needed(summary, gap) {
             Some(needed) => {
-                let left = format::millimetres(width(gap) - needed);
-                let note = message::gap_left(there, left);
+                let spare = width(gap) - needed;
+                let note = match spare < 0.0 {
+                    true => message::gap_lacks(there, format::millimetres(-spare)),
+                    false => message::gap_left(there, format::millimetres(spare)),
+                };
                 tile(
                     message::gap_needed(&pair),
                     format::millimetres(needed),
-                    note,
+                    note + bounds,
                 )
             }
             None => closing(gap, &pair),
         }
     });
     tiles.collect()
+}
+
+/// Gap needed, over nominal properties and bounds of bearings where they are stated \[m\].
+fn needed(summary: &Summary, gap: &GapSummary) -> Option<f64> {
+    bounded(summary, gap).or(gap.closing_without_contact_m)
+}
+
+/// The greatest over nominal properties and bounds of bearings \[m\].
+fn bounded(summary: &Summary, gap: &GapSummary) -> Option<f64> {
+    let index = summary.gaps.iter().position(|other| std::ptr::eq(other, gap))?;
+    let bounds = summary.isolation_bounds.as_ref()?.gaps.get(index)?;
+    Some(bounds.closing_without_contact_m.as_ref()?.envelope)
 }
 
 /// How far a gap closed.
@@ -313,6 +320,15 @@ fn roofs(summary: &Summary) -> Vec<Tile> {
 /// The motion, and how well the energies balance.
 fn motion(summary: &Summary) -> String {
     let pga = summary.motion.pga_m_s2;
+    let peak = format::short(format::ACCELERATION, pga, 3);
+    let peak = match format::units() {
+        format::Units::Si => {
+            let share = format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3);
+            format!("{peak} ({share} % g)")
+        }
+        // It is in g.
+        format::Units::Us => peak,
+    };
     message::under_the_motion(
         match (&summary.motion.across, summary.motion.pga_across_m_s2) {
             (Some(across), Some(peak)) => message::name_and_across(
@@ -322,8 +338,7 @@ fn motion(summary: &Summary) -> String {
             ),
             _ => summary.motion.name.clone(),
         },
-        format::short(format::ACCELERATION, pga, 3),
-        format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3),
+        peak,
         format::significant(summary.energy.worst_imbalance, 2),
     )
 }

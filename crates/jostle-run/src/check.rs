@@ -113,8 +113,9 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
         &opened.system,
     ));
     for warning in &warnings {
-        let shown = in_shown_units(warning);
-        let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
+        let warning = opened.input.with_line(warning);
+        let warning = in_shown_units(&warning);
+        let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
     }
     let notes = opened.input.assumptions();
     for assumption in &notes {
@@ -152,7 +153,8 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
             return Err(opened.input.fault("analysis.solver", problem).into());
         }
         if let Some(warning) = opened.input.unusual_motion(&motion) {
-            let shown = in_shown_units(&warning);
+            let shown = opened.input.with_line(&warning);
+            let shown = in_shown_units(&shown);
             let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
@@ -163,7 +165,7 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
         let settings = prepared.settings(true);
         prepared.check_histories(settings, true, Some("jostle run --force runs it anyway"))?;
         let expected = prepared.expect(settings, true);
-        let seconds = prepared.expected_seconds(settings, true);
+        let seconds = prepared.expected_seconds(settings);
         let _ = writeln!(text, "  {}\n", expected.text(seconds));
         work = Some(ExpectedWork {
             solver: plan.solver.name(),

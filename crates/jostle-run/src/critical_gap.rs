@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use jostle::separation::{Code, CodeInputs, Requirement};
+use jostle::separation::{Code, CodeInputs, MotionLevel, Requirement};
 use jostle::{GroundMotion, Model, Pounding};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -45,6 +45,9 @@ pub struct CriticalGap {
     pub motion: String,
     /// Its peak \[m/s²\].
     pub pga_m_s2: f64,
+    /// Whether it is the design motion reduced by q or R: widths of codes, which are for the full one, then have no ratio and no
+    /// outcome.
+    pub motion_is_reduced: bool,
     /// Smallest gap found without an impact \[m\].
     pub gap_m: f64,
     /// Smallest gap without an impact under the motion with the other sign; `null` if not asked for \[m\].
@@ -528,9 +531,12 @@ impl Search<'_> {
         let modes = apart.summary.first_modes(model, gap);
         let required = apart.summary.required_gaps(model, gap, &settings.codes);
         let mut rules: Vec<RuleGap> = required.rules.into_iter().map(rule_gap).collect();
+        let motion_is_reduced = settings.codes.motion == MotionLevel::Reduced;
+        let compares = |rule: &RuleGap| !motion_is_reduced || rule.code.is_none();
         let mut known = Ok(());
         if settings.outcomes {
-            let widths: Vec<f64> = rules.iter().map(|rule| rule.gap_m).collect();
+            let widths = rules.iter().filter(|rule| compares(rule));
+            let widths: Vec<f64> = widths.map(|rule| rule.gap_m).collect();
             known = run_all(&mut signs, &widths);
         }
         let free_of_both = reversed_closing.unwrap_or(0.0).max(bracket.free);
@@ -550,7 +556,7 @@ impl Search<'_> {
             Err(GapError::Stopped) => true,
             known => known.map(|()| false)?,
         };
-        for rule in &mut rules {
+        for rule in rules.iter_mut().filter(|rule| compares(rule)) {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
             rule.ratio_of_both_signs = (free_of_both > 0.0).then(|| rule.gap_m / free_of_both);
             if !settings.outcomes {
@@ -576,6 +582,7 @@ impl Search<'_> {
             between,
             motion: self.motion.name.clone(),
             pga_m_s2: self.motion.peak(),
+            motion_is_reduced,
             gap_m: bracket.free,
             reversed_gap_m: reversed_closing,
             pounding_at_m: bracket.pounding,

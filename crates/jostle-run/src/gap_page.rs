@@ -229,7 +229,7 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
         String::new()
     };
     let mut sections = vec![Section {
-        title: pair.join(" – "),
+        title: pair.join(" ↔ "),
         remark: message::greatest_contact_force_and_number(&warning),
         charts: vec![
             chart(

@@ -18,7 +18,7 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             };
             let dissipated: f64 = parts().map(|part| part.dissipated_j).sum();
             let spent = match dissipated > 0.0 {
-                true => format!("; {} dissipated in all", ENERGY.text(dissipated, 1)),
+                true => format!("; {} dissipated in total", ENERGY.text(dissipated, 1)),
                 false => String::new(),
             };
             // Struts have no tension.

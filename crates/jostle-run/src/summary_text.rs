@@ -270,6 +270,17 @@ fn write_buildings(
             accelerations(building)
         )?;
     }
+    let raised = |building: &BuildingSummary| {
+        let response = &building.response;
+        let filtered = response.filtered_acceleration_peak_m_s2;
+        filtered.is_some_and(|filtered| filtered > response.total_acceleration_peak_m_s2)
+    };
+    if buildings.iter().any(raised) {
+        writeln!(
+            text,
+            "In brackets: low-pass filtered. The filter overshoots at impacts, so that its peak can be the greater one."
+        )?;
+    }
     Ok(())
 }
 
@@ -715,7 +726,7 @@ fn write_gap(
     if gap.multiple_pounding_count > 0 {
         writeln!(
             text,
-            "  {} of {} at several floors at the same time, up to {} at once.",
+            "  {} of {} involve several floors (up to {}).",
             gap.multiple_pounding_count,
             counted(gap.pounding_count, "pounding"),
             gap.most_at_once

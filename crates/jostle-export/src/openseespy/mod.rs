@@ -170,7 +170,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         if diagonals.iter().any(crushed) {
             refuse(
                 format!("building[{index}].infill"),
-                "with hinge bears compression alone, which OpenSees' Hysteretic cannot do; leave hinge out to compare with elastic struts".into(),
+                "has compression-only struts with a hinge, which OpenSees' Hysteretic cannot do; leave out hinge to compare with elastic struts".into(),
             );
         }
         let frames: Vec<&jostle::Frame> = match &building.structure {

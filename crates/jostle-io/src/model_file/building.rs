@@ -411,10 +411,10 @@ pub(super) fn storeys(
         if (1..=MOST_STOREYS).contains(&count) {
             return Some(count);
         }
-        reader.bad(
+        *reader.bad(
             &field,
             format!("must lie between 1 and {MOST_STOREYS}, found {count}"),
-        );
+        ) = (count == 0).then(|| "a building of one floor has storeys = 1".into());
         return None;
     }
     for list in lists {

@@ -2,7 +2,7 @@
 
 use jostle::interface::narrowest_gap;
 use jostle::{
-    Building, ContactLaw, FloorPairs, Gap, Model, PlanContact, PlanPoint, RestitutionIs, Structure,
+    Building, ContactLaw, FloorPairs, Gap, Level, Model, PlanContact, PlanPoint, RestitutionIs, Structure,
     Wall,
 };
 
@@ -229,8 +229,7 @@ fn plan_contact<'n>(
 /// One width, or one per contact.
 fn widths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
     let Some(entries) = field.entries() else {
-        let width = reader.quantity(field, Dimension::Length)?;
-        return Some(vec![width]);
+        return Some(vec![width(reader, field)?]);
     };
     if entries.len() > MOST_CONTACTS {
         let count = entries.len();
@@ -242,7 +241,83 @@ fn widths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
     }
     let widths: Vec<_> = entries
         .iter()
-        .map(|entry| reader.quantity(entry, Dimension::Length))
+        .map(|entry| width(reader, entry))
         .collect();
     widths.into_iter().collect()
+}
+
+fn width(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
+    let width = reader.quantity(field, Dimension::Length)?;
+    if width < 0.0 {
+        let found = field.node.describe();
+        reader.bad(
+            field,
+            format!("must not be negative, found {found}; touching buildings have a gap of zero"),
+        );
+        return None;
+    }
+    Some(width)
+}
+
+/// Notes gaps of one pair between the same floors: both would push.
+pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model: &Model) {
+    let gaps: Vec<&Gap> = model.gaps.iter().take(fields.len()).collect();
+    for (index, gap) in gaps.iter().enumerate() {
+        let mut earlier = gaps[..index].iter();
+        let Some(first) = earlier.position(|other| joins_the_same(other, gap, model)) else {
+            continue;
+        };
+        let line = reader.line(&fields[first].node.span);
+        *reader.bad(
+            &fields[index],
+            format!("joins floors that the [[gap]] of line {line} joins as well: both would push"),
+        ) = Some("keep one of them, or give each its own floors; a bumper that bottoms out is one gap with law = \"rubber\"".into());
+    }
+}
+
+/// Whether two gaps of one pair have points in common.
+fn joins_the_same(a: &Gap, b: &Gap, model: &Model) -> bool {
+    if a.between != b.between || a.between == ALL_NEIGHBOURS {
+        return false;
+    }
+    if a.floors == b.floors {
+        return true;
+    }
+    let levels = a.between.map(|side| {
+        let building = side.and_then(|index| model.buildings.get(index));
+        building.map(Building::floor_levels).unwrap_or_default()
+    });
+    let height = |side: usize, level: &Level| match level {
+        Level::Floor(floor) => floor.checked_sub(1).and_then(|at| levels[side].get(at)).copied(),
+        Level::Height(height) => Some(*height),
+        Level::Wall => None,
+    };
+    // Heights of both points; `None` where a rule finds them.
+    let points = |gap: &Gap| match &gap.floors {
+        FloorPairs::Listed(pairs) => {
+            // A wall is as high as what faces it.
+            let both = |[left, right]: &[Level; 2]| match (height(0, left), height(1, right)) {
+                (Some(left), Some(right)) => Some([left, right]),
+                (one, other) => one.or(other).map(|at| [at; 2]),
+            };
+            Some(pairs.iter().filter_map(both).collect::<Vec<_>>())
+        }
+        FloorPairs::Heights(heights) => Some(heights.iter().map(|&at| [at; 2]).collect()),
+        FloorPairs::Common | FloorPairs::All => None,
+    };
+    let near = |one: f64, other: f64| (one - other).abs() <= a.level_tolerance;
+    let is_floor = |side: usize, at: f64| {
+        levels[side].is_empty() || levels[side].iter().any(|&level| near(level, at))
+    };
+    match (points(a), points(b)) {
+        (None, None) => true,
+        (Some(one), Some(other)) => one.iter().any(|[left, right]| {
+            let mut others = other.iter();
+            others.any(|of_other| near(*left, of_other[0]) && near(*right, of_other[1]))
+        }),
+        // Every rule finds floors at equal height.
+        (Some(listed), None) | (None, Some(listed)) => listed
+            .iter()
+            .any(|&[left, right]| near(left, right) && is_floor(0, left) && is_floor(1, right)),
+    }
 }

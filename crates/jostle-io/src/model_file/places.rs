@@ -190,7 +190,7 @@ fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option
         *reader.bad(
             field,
             format!(
-                "must rise and lie between 1 and {most}, found {} to {}",
+                "must be ascending, within 1 to {most}, found {} to {}",
                 range[0], range[1]
             ),
         ) = Some("count lines, bays and storeys from 1; a beam has the number of the line at which it begins".into());

@@ -523,7 +523,7 @@ fn storey_range(reader: &mut Reader<'_>, field: &Field<'_>, count: usize) -> Opt
     if from == 0 || to < from || to > count {
         reader.bad(
             field,
-            format!("must rise and lie between 1 and {count}, found [{from}, {to}]"),
+            format!("must be ascending, within 1 to {count}, found [{from}, {to}]"),
         );
         return None;
     }

@@ -9,6 +9,9 @@ use crate::reader::{Reader, View};
 /// Default storey height of a shear building; only drifts and contacts depend on it \[m\].
 pub(super) const DEFAULT_STOREY_HEIGHT: f64 = 3.0;
 
+/// How much stiffer than the one below a storey can be without a warning \[–\].
+const MOST_GROWTH: f64 = 2.0;
+
 /// Reads the keys of a shear building; after a fault, harmless values are used.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
     let count = if is_single_floor(reader, view) {
@@ -31,15 +34,38 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
         };
         values.unwrap_or_else(|| vec![stand_in; count.unwrap_or(1)])
     };
+    let mass = list("mass", Dimension::Mass, Some("\"40 t\""), 1.0);
+    let stiffness = list("stiffness", Dimension::Stiffness, Some("\"60 MN/m\""), 1.0);
+    let storey_heights = list(
+        "storey_height",
+        Dimension::Length,
+        None,
+        DEFAULT_STOREY_HEIGHT,
+    );
+    note_growth(reader, view, &stiffness);
     Shear {
-        mass: list("mass", Dimension::Mass, Some("\"40 t\""), 1.0),
-        stiffness: list("stiffness", Dimension::Stiffness, Some("\"60 MN/m\""), 1.0),
-        storey_heights: list(
-            "storey_height",
-            Dimension::Length,
-            None,
-            DEFAULT_STOREY_HEIGHT,
-        ),
+        mass,
+        stiffness,
+        storey_heights,
+    }
+}
+
+/// Warns of a storey that is much stiffer than the one below: lists begin at the ground.
+fn note_growth(reader: &mut Reader<'_>, view: &View<'_>, stiffness: &[f64]) {
+    let grows = |pair: &[f64]| pair[1] > MOST_GROWTH * pair[0];
+    let Some(at) = stiffness.windows(2).position(grows) else {
+        return;
+    };
+    if let Some(field) = reader.get(view, "stiffness") {
+        let ratio = stiffness[at + 1] / stiffness[at];
+        reader.warn(
+            &field,
+            &format!(
+                "storey {} is {ratio:.1} times as stiff as storey {} below it; lists begin at the ground",
+                at + 2,
+                at + 1
+            ),
+        );
     }
 }
 

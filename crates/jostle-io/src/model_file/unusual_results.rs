@@ -2,10 +2,12 @@
 
 use jostle::results::overdamped_contacts;
 use jostle::results::summary::Summary;
-use jostle::{Building, GroundMotion, LawKind, Model, Structure, System};
+use jostle::{Building, GroundMotion, LawKind, Model, Structure, System, Wave};
 
 use super::Input;
+use crate::motion_spec::Scaling;
 use crate::quantity::Dimension;
+use crate::tree::Value;
 use crate::unusual::{FIRST_PERIOD, IMPACT_SPEED, PEAK_ACCELERATION, Verdict, Written};
 
 impl Input {
@@ -21,6 +23,28 @@ impl Input {
     #[must_use]
     pub fn unusual_motion(&self, motion: &GroundMotion) -> Option<String> {
         self.unusual_peak(motion.peak())
+            .or_else(|| self.weak_record(motion))
+    }
+
+    /// The warning of a peak without unit that is a small part of the record's, as if it were one in g.
+    fn weak_record(&self, motion: &GroundMotion) -> Option<String> {
+        const PATH: &str = "motion.pga";
+        let &Scaling::Pga(pga) = &self.motion.as_ref()?.scaling else {
+            return None;
+        };
+        let written = match self.origin.at(PATH)? {
+            Value::Number(number) => *number,
+            Value::Text(text) => text.trim().parse().ok()?,
+            _ => return None,
+        };
+        let meant = written == pga && pga < 1.0 && motion.scale.abs() <= WEAK && !self.accepts(PATH);
+        let is_record = matches!(motion.wave, Wave::Sampled { .. });
+        (meant && is_record).then(|| {
+            format!(
+                "{PATH}: {pga} m/s² is {} of the peak of the record; is it {pga} g?",
+                three_digits(motion.scale.abs())
+            )
+        })
     }
 
     fn unusual_peak(&self, peak: f64) -> Option<String> {
@@ -48,6 +72,9 @@ impl Input {
         }
     }
 }
+
+/// Part of the peak of a record below which a peak without unit is asked about \[–\].
+const WEAK: f64 = 0.2;
 
 /// Unusual properties of an assembled model, by field.
 fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {

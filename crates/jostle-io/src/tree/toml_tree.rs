@@ -7,6 +7,9 @@ use toml::de::{DeTable, DeValue};
 use crate::source::{BACKSLASH, Span};
 use crate::tree::{Entry, Node, SyntaxError, Table, Value};
 
+/// Quotation marks of word processors.
+const TYPOGRAPHIC: [char; 5] = ['\u{201c}', '\u{201d}', '\u{201e}', '\u{2018}', '\u{2019}'];
+
 /// Parses a whole text; reports every syntax error that the parser can distinguish.
 pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
     let (root, errors) = DeTable::parse_recoverable(text);
@@ -22,7 +25,12 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
             let span = error.span().unwrap_or(0..0);
             let before = text.get(..span.start).unwrap_or_default();
             let line = before.rsplit('\n').next().unwrap_or_default();
-            let problem = problem(error.message(), line.trim_start().starts_with("[["));
+            let after = text.get(span.start..).unwrap_or_default();
+            let quoted = after.lines().next().unwrap_or_default().contains(TYPOGRAPHIC);
+            let problem = match quoted {
+                true => "typographic quotation marks: use straight ones, as in \"Left\"".to_owned(),
+                false => problem(error.message(), line.trim_start().starts_with("[[")),
+            };
             SyntaxError { span, problem }
         })
         .collect();

@@ -22,7 +22,7 @@ const WALL: f64 = 8.0;
 /// Width of a building without spans, as a part of its height, and its least width \[m\].
 const SLENDERNESS: f64 = 0.3;
 const LEAST_WIDTH: f64 = 3.0;
-/// Most storeys whose heights are written one by one.
+/// Most runs of equal storeys whose heights are written.
 const LISTED: usize = 30;
 
 /// Column lines of a building from its left edge, and heights of its floors and of its base above the lowest base \[m\].
@@ -205,34 +205,32 @@ fn drawing(
     let x = |across: f64| left + scale * across;
     let (right, top) = (x(outline.width()), y(outline.height()));
     let middle = 0.5 * (left + right);
+    // Equal storeys above each other: how many, their height, and where they begin and end.
+    let mut runs: Vec<(usize, f64, [f64; 2])> = Vec::new();
     let mut below = outline.foot;
-    let storeys: Vec<(f64, f64)> = outline
-        .floors
-        .iter()
-        .map(|floor| {
-            let storey = (floor - below, 0.5 * (floor + below));
-            below = *floor;
-            storey
-        })
-        .collect();
-    // One number for equal storeys, so that tall buildings stay legible.
-    let equal = storeys
-        .windows(2)
-        .all(|pair| (pair[0].0 - pair[1].0).abs() < 1e-9);
-    let written = match (equal, storeys.len()) {
-        (true, count) if count > 1 => vec![(
-            format!(
-                "{count} × {}",
-                format::plain(format::HEIGHT.of(storeys[0].0), 4)
-            ),
-            0.5 * (outline.foot + outline.height()),
-        )],
-        (_, count) if count > LISTED => Vec::new(),
-        _ => storeys
-            .iter()
-            .map(|(h, at)| (format::plain(format::HEIGHT.of(*h), 4), *at))
-            .collect(),
-    };
+    for floor in &outline.floors {
+        let storey = floor - below;
+        match runs.last_mut() {
+            Some((count, height, [_, end])) if (*height - storey).abs() < 1e-9 => {
+                *count += 1;
+                *end = *floor;
+            }
+            _ => runs.push((1, storey, [below, *floor])),
+        }
+        below = *floor;
+    }
+    if runs.len() > LISTED {
+        runs.clear();
+    }
+    let written = runs.iter().map(|&(count, height, [from, to])| {
+        let height = format::plain(format::HEIGHT.of(height), 4);
+        let text = match count {
+            1 => height,
+            _ => format!("{count} × {height}"),
+        };
+        (text, 0.5 * (from + to))
+    });
+    let written: Vec<(String, f64)> = written.collect();
     html! {
         g style=(colour(index)) {
             @if let Structure::Frame(frame) = &building.structure {

@@ -31,7 +31,7 @@ messages! {
     classes_place = "place";
     classes_state = "damage";
     classes_gap = "gap";
-    classes_map_help = "Click a cell to see its curves. A factor below 1 means that pounding brings the damage about at a lower intensity. An empty cell has no curve; point at it for the reason.";
+    classes_map_help = "Click a cell to see its curves. A factor below 1 means that damage occurs at a lower intensity. An empty cell has no curve; point at it for the reason.";
     classes_curves = "Fragility curves of the chosen pair";
     classes_curves_help = "Solid: with contact. Dashed: without. Points: share of cases at each intensity.";
     classes_limits = "Limits";
@@ -56,7 +56,7 @@ messages! {
     braces_buckled = "braces buckled";
     braces_yielded = "braces yielded";
     struts_cracked = "infill struts cracked";
-    crushed_of_struts(count) = "{count} crushed";
+    crushed_of_struts(count) = "{count} reached their strength";
     damage_first_at(instant) = ", first at {instant} s";
 
     // collisions
@@ -136,8 +136,8 @@ messages! {
     members_of_the_frame = "columns and beams";
     columns_and_beams_count(columns, beams) = "{columns} and {beams}";
     columns_beams_and_walls(columns, beams, walls) = "{columns} and {beams}; walls: {walls}";
-    gap_between(left, right) = "Gap {left}–{right}";
-    links_between(left, right) = "Links {left}–{right}";
+    gap_between(left, right) = "Gap {left} ↔ {right}";
+    links_between(left, right) = "Links {left} ↔ {right}";
     ground_motion = "Ground motion";
     analysis = "Analysis";
     energy_at_the_end = "Energy at the end";
@@ -380,11 +380,11 @@ messages! {
     distance_from_the_property_line = "distance from the property line";
     is_left_out_it_needs(name, needs) = "{name} is left out: it needs {needs}.";
     peak_closing = "peak closing";
-    smallest_gap_without_pounding = "smallest gap without pounding";
+    smallest_gap_without_pounding = "gap needed";
 
     // members
     columns_and_beams = "Columns and beams";
-    capacity_by_with_the_strengths(source) = "Capacity by {source}, with the strengths given in the model. Bending: moment capacity of the section under the axial force of the same instant. Ratios above 1 are beyond the capacity. summary.json and capacity.parquet also have the other rules.";
+    capacity_by_with_the_strengths(source) = "Capacity by {source}, with the strengths of the sections (strength: characteristic, mean or design), which moments of hinges from sections have as well. Bending: moment capacity of the section under the axial force of the same instant. Ratios above 1 are beyond the capacity. summary.json and capacity.parquet also have the other rules.";
     rotations_of_yielding_ends_chord = "Rotations of yielding ends: chord rotation by EN 1998-3 (DL, SD, NC), plastic rotation by ASCE 41 (IO, LS, CP), and crushing of the section; in this order, as far as they apply.";
     greatest_forces_of_every_member = "Greatest forces of every member, by the greatest ratio where capacities are known, otherwise struck columns first, then by shear. Axial forces are positive in tension; shear and moment are the greatest of both ends and of both sides of a struck point, either sign. Damping forces are no part of shears and moments.";
     greatest_of_both_planes_of_bending = "In a space frame they are the greatest of both planes of bending.";
@@ -512,6 +512,7 @@ messages! {
     peak_closing_title(pair) = "Peak closing{pair}";
     gap_left(width, left) = "gap {width}, {left} left";
     gap_needed(pair) = "Gap needed{pair}";
+    over_the_bounds_of_bearings = ", over the bounds of bearings";
     gap_lacks(width, lacks) = "gap {width}, {lacks} too narrow";
     greatest_drift = "Greatest drift";
     storey_of(name, storey) = "{name}, storey {storey}";
@@ -522,7 +523,7 @@ messages! {
     struck_up_to(times, force) = "struck {times} ×, up to {force}";
     peak_ground_acceleration = "Peak ground acceleration";
     name_and_across(name, across, peak) = "{name} (across {across}, peak {peak})";
-    under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
+    under_the_motion(name, peak, imbalance) = "Under {name}, peak {peak}. Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
     damage_of(what, name) = "{what}, {name}";
     one_of_all(one, all) = "{one} of {all}";
@@ -889,7 +890,7 @@ messages! {
     no_contact_between_floors = "No contact between floors.";
     the_strongest_of_impacts_impacts(most_rows, all) = "The {most_rows} strongest of {all}  impacts; impacts.parquet contains all of them.";
     show_all_impacts(rows) = "Show all {rows} impacts";
-    of_poundings_are_at_several(multiple_pounding_count, pounding_count, most_at_once) = "{multiple_pounding_count} of {pounding_count} poundings are at several floors at the same time, at most {most_at_once} at once.";
+    of_poundings_are_at_several(multiple_pounding_count, pounding_count, most_at_once) = "{multiple_pounding_count} of {pounding_count} poundings involve several floors (up to {most_at_once}).";
     restitution_is_separation_speed_impact = "Restitution is separation speed ÷ impact speed, as computed.";
     two_free_masses_would = "Two free masses would rebound with";
     under_this_contact_law = "under this contact law.";
@@ -941,10 +942,10 @@ messages! {
     greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dashed: the motion reversed. Dots: rules that require less than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
     greatest_contact_force = "greatest contact force";
     gap_mm = "required gap [{mm}]";
-    smallest = "÷ smallest";
+    smallest = "÷ needed";
     greatest_force_kn = "greatest force [{kN}]";
     rules_under(motion) = "Rules under {motion}";
-    smallest_gap_without_pounding_mm(gap) = "Smallest gap without pounding: {gap} {mm}. Sources: jostle gap --json.";
+    smallest_gap_without_pounding_mm(gap) = "Gap needed: {gap} {mm}. Sources: jostle gap --json.";
 
     // jostle-live/page
     runs_on_this_machine = "runs on this machine. This page uses no network.";
@@ -1033,6 +1034,7 @@ messages! {
     over_time_of(title) = "{title} over time";
     at_instant(instant) = "at {instant} s";
     not_cracked = "not cracked";
+    struts_of_the_whole_run = "infill struts, whole run: dashed where cracked, full where the strength was reached";
     yielded_greatest_ductility = "yielded, greatest ductility:";
     over_value(value) = "over {value}";
     loop_numbers(ductility, dissipated) = "ductility {ductility}, {dissipated} {kJ}";
@@ -1294,7 +1296,7 @@ messages! {
     worst_angle_is(angle, group, least, most) = "The worst angle for the contact force is {angle}°{group}; over all angles the greatest force is between {least} and {most} {kN}.";
     greatest_contact_force_title = "Greatest contact force";
     number_of_impacts_title = "Number of impacts";
-    smallest_gap_title = "Smallest gap without pounding";
+    smallest_gap_title = "Gap needed";
     corner_displacement_title = "Greatest displacement of a corner";
     floor_rotation_title = "Greatest rotation of a floor";
     drift_along_title = "Greatest storey drift along x";

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
-use crate::message;
+use crate::{format, message};
 use crate::scale::{Scale, name_upwards};
 
 /// Lines over an axis.
@@ -77,6 +77,52 @@ const COLOURS: usize = 7;
 /// Series in a legend at most.
 const LEGEND: usize = 14;
 
+/// Height of a line of names, and width of a letter, about.
+const LINE: f64 = 12.0;
+const LETTER: f64 = 5.8;
+
+/// The name of a dot that stands alone, and where it is written.
+struct DotName<'a> {
+    name: &'a str,
+    dot: [f64; 2],
+    at: [f64; 2],
+}
+
+/// Names beside their dots, moved up or down until none covers another one.
+fn dot_names<'a>(
+    chart: &'a Chart,
+    px: &dyn Fn(f64) -> f64,
+    py: &dyn Fn(f64) -> f64,
+) -> Vec<DotName<'a>> {
+    let alone = |series: &&Series| series.stroke == Stroke::Dots && series.points.len() == 1;
+    let mut names: Vec<DotName<'a>> = Vec::new();
+    for series in chart.series.iter().filter(alone) {
+        let dot = [px(series.points[0][0]), py(series.points[0][1])];
+        let width = |name: &str| LETTER * name.chars().count() as f64;
+        let x = (dot[0] + 6.0).min(WIDTH - width(&series.name));
+        let is_free = |y: f64| {
+            let inside = (TOP + LINE..HEIGHT - BOTTOM).contains(&y);
+            let covers = |other: &DotName<'_>| {
+                (other.at[1] - y).abs() < LINE
+                    && other.at[0] < x + width(&series.name)
+                    && x < other.at[0] + width(other.name)
+            };
+            inside && !names.iter().any(covers)
+        };
+        let steps = (0..2 * names.len() + 2).map(|step| {
+            let away = step.div_ceil(2) as f64 * LINE;
+            dot[1] - 4.0 + if step % 2 == 0 { away } else { -away }
+        });
+        let y = steps.into_iter().find(|y| is_free(*y));
+        names.push(DotName {
+            name: &series.name,
+            dot,
+            at: [x, y.unwrap_or(dot[1] - 4.0)],
+        });
+    }
+    names
+}
+
 pub(super) fn figure(chart: &Chart) -> Markup {
     let points = || chart.series.iter().flat_map(|series| &series.points);
     let bands = || chart.series.iter().flat_map(|series| &series.band);
@@ -127,7 +173,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
     html! {
         figure.study-chart {
             figcaption {
-                @if !chart.title.is_empty() { span.chart-title { (chart.title) } }
+                @if !chart.title.is_empty() { span.chart-title { (format::capital(&chart.title)) } }
                 span.legend {
                     @for series in named.iter().take(LEGEND) {
                         span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed].dots[series.stroke == Stroke::Dots] {} (series.name) }
@@ -160,9 +206,11 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                         }
                     }
                 }
-                @for series in chart.series.iter().filter(|own| own.stroke == Stroke::Dots && own.points.len() == 1) {
-                    @let [x, y] = series.points[0];
-                    text.study-level-name x=(format!("{:.1}", px(x) + 6.0)) y=(format!("{:.1}", py(y) - 4.0)) { (series.name) }
+                @for DotName { name, dot, at } in dot_names(chart, &px, &py) {
+                    @if (at[1] - dot[1]).abs() > LINE {
+                        g.grid { line x1=(format!("{:.1}", dot[0])) y1=(format!("{:.1}", dot[1])) x2=(format!("{:.1}", at[0] - 2.0)) y2=(format!("{:.1}", at[1] - 4.0)) {} }
+                    }
+                    text.study-level-name x=(format!("{:.1}", at[0])) y=(format!("{:.1}", at[1])) { (name) }
                 }
                 // Above the lines, which would cross them.
                 @for level in &chart.levels {

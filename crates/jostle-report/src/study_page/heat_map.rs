@@ -3,7 +3,8 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
-use crate::message;
+use crate::{format, message};
+use crate::scale::Scale;
 
 /// A quantity over two others.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +56,8 @@ struct Spacing {
     edges: Vec<f64>,
     /// Places of the values.
     places: Vec<f64>,
+    /// Place of the number zero and length of one, unless they are spaced by logarithms.
+    linear: Option<[f64; 2]>,
 }
 
 impl Spacing {
@@ -89,7 +92,26 @@ impl Spacing {
         let place = |at: f64| (at - from) / whole * length;
         Self {
             places: values.iter().map(|value| place(by(*value))).collect(),
+            linear: (!by_ratio).then(|| [place(0.0), length / whole]),
             edges: edges.into_iter().map(place).collect(),
+        }
+    }
+
+    /// Numbers along the axis with their places: the values, or round numbers where not all values have room.
+    fn ticks(&self, values: &[f64], apart: f64) -> Vec<(f64, String)> {
+        let labelled = self.labelled(apart);
+        let end = self.edges.last().copied().unwrap_or(0.0);
+        match self.linear {
+            Some([zero, unit]) if labelled.len() < values.len() && end > 0.0 => {
+                let ends = [0.0, end].map(|place| (place - zero) / unit);
+                let scale = Scale::new(ends, [0.0, end], 1.0, end / (1.5 * apart));
+                let placed = scale.placed();
+                placed.map(|(_, place, text)| (place, text)).collect()
+            }
+            _ => {
+                let value = |at: usize| (self.places[at], number(values[at]));
+                labelled.into_iter().map(value).collect()
+            }
         }
     }
 
@@ -132,7 +154,7 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
     let bar = LEFT + length + 14.0;
     html! {
         figure.study-map {
-            figcaption { span.chart-title { (map.value.name) } @if !map.value.unit.is_empty() { span.unit { " [" (map.value.unit) "]" } } }
+            figcaption { span.chart-title { (format::capital(&map.value.name)) } @if !map.value.unit.is_empty() { span.unit { " [" (map.value.unit) "]" } } }
             svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(label) {
                 @for (index, one) in map.cells.iter().enumerate() {
                     @let (column, row) = (index % nx, index / nx);
@@ -154,11 +176,11 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
                         }
                     }
                 }
-                @for column in across.labelled(34.0) {
-                    text x=(LEFT + across.places[column]) y=(height - BOTTOM + 15.0) text-anchor="middle" { (number(map.columns[column])) }
+                @for (place, text) in across.ticks(&map.columns, 34.0) {
+                    text x=(LEFT + place) y=(height - BOTTOM + 15.0) text-anchor="middle" { (text) }
                 }
-                @for row in up.labelled(14.0) {
-                    text x=(LEFT - 6.0) y=(TOP + tall - up.places[row] + 4.0) text-anchor="end" { (number(map.rows[row])) }
+                @for (place, text) in up.ticks(&map.rows, 14.0) {
+                    text x=(LEFT - 6.0) y=(TOP + tall - place + 4.0) text-anchor="end" { (text) }
                 }
                 text x=(LEFT + 0.5 * length) y=(height - 10.0) text-anchor="middle" { (map.x.label()) }
                 text x="0" y="12" { (map.y.label()) }

@@ -242,7 +242,7 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
         .collect();
     if !cracking.is_empty() {
         text += &format!(
-            " (struts of {} {stiffness} that crack at {} {force} and bear {} {force})",
+            " (struts of {} {stiffness}, cracking {} {force}, strength {} {force})",
             between(&cracking, &|own| LARGE_STIFFNESS
                 .of(own.backbone().initial())),
             between(&cracking, &|own| FORCE.of(pressed(own).cracking.force)),
@@ -276,7 +276,7 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
             true => format!("{most:.2}"),
             false => format!("{least:.2} to {most:.2}"),
         };
-        text += &format!(", which bear {range} g across their plane");
+        text += &format!(", out-of-plane strength {range} g");
     }
     text
 }

@@ -25,8 +25,8 @@ impl Results<'_> {
     pub(super) fn curves(&self) -> Option<Section> {
         let (right, up) = self.plane()?;
         let (xs, ys) = (self.input(right), self.input(up));
-        let (x_axis, x_size) = words::axis(&self.study.layout.inputs[right].name);
-        let (y_axis, y_size) = words::axis(&self.study.layout.inputs[up].name);
+        let (x_axis, x_size) = self.input_axis(right);
+        let (y_axis, y_size) = self.input_axis(up);
         let mut charts = Vec::new();
         let groups = self.grouped(&self.others(&[right, up]));
         let levels = self.numbers(up);
@@ -88,7 +88,7 @@ impl Results<'_> {
     pub(super) fn sweep_curves(&self) -> Option<Section> {
         let factor = self.sweep()?;
         let xs = self.input(factor);
-        let (x_axis, x_size) = words::axis(&self.study.layout.inputs[factor].name);
+        let (x_axis, x_size) = self.input_axis(factor);
         let groups = self.grouped(&self.others(&[factor]));
         let all = groups.len();
         let drawn = spread(all, MOST_LINES);

@@ -43,8 +43,8 @@ impl Results<'_> {
                 }
             }
             let (value, size) = words::axis(shown);
-            let (x, x_size) = words::axis(&self.study.layout.inputs[right].name);
-            let (y, y_size) = words::axis(&self.study.layout.inputs[up].name);
+            let (x, x_size) = self.input_axis(right);
+            let (y, y_size) = self.input_axis(up);
             let cell = |cases: &Vec<usize>| {
                 let present: Vec<f64> = cases.iter().filter_map(|case| values[*case]).collect();
                 let mean = present.iter().sum::<f64>() / present.len() as f64;

@@ -17,9 +17,11 @@ use std::io::Write;
 use std::path::Path;
 
 use jostle_io::shown::{FORCE, by_model};
-use jostle_io::{FactorValues, Values, csv_field, write_atomically, write_values_parquet};
+use jostle_io::{
+    Factor, FactorValues, STANDARD_GRAVITY, Values, csv_field, write_atomically, write_values_parquet,
+};
 use jostle_report::message;
-use jostle_report::{Section, StudyPage, render_study};
+use jostle_report::{Axis, Section, StudyPage, render_study};
 
 use crate::dataset::{Table, visit_parts};
 use crate::layout::Kind;
@@ -162,6 +164,29 @@ fn written(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError
 }
 
 impl Results<'_> {
+    /// The axis of a factor, in the unit that the study file gives accelerations in, and by what its numbers are multiplied there.
+    fn input_axis(&self, factor: usize) -> (Axis, f64) {
+        let (axis, size) = words::axis(&self.study.layout.inputs[factor].name);
+        let is_in_g = match &self.study.file.factors[factor] {
+            Factor {
+                unit,
+                values: FactorValues::Listed(levels),
+                ..
+            } => unit == "m_s2" && levels.iter().all(|level| level.label.ends_with(" g")),
+            _ => false,
+        };
+        match is_in_g {
+            true => (
+                Axis {
+                    unit: "g".into(),
+                    ..axis
+                },
+                1.0 / STANDARD_GRAVITY,
+            ),
+            false => (axis, size),
+        }
+    }
+
     /// Numbers of a factor case by case; positions in its list where it has no numbers.
     fn input(&self, factor: usize) -> Vec<Option<f64>> {
         let column = &self.study.layout.inputs[factor];

@@ -61,8 +61,8 @@ impl Results<'_> {
             return None;
         }
         let (gaps, intensities) = (self.input(right), self.input(up));
-        let (gap_axis, gap_size) = words::axis(&self.study.layout.inputs[right].name);
-        let (axis, size) = words::axis(&self.study.layout.inputs[up].name);
+        let (gap_axis, gap_size) = self.input_axis(right);
+        let (axis, size) = self.input_axis(up);
         let impacts = self.table.column("impact_count").to_vec();
         let groups = self.grouped(&self.others(&[right, up]));
         let levels = self.numbers(up);

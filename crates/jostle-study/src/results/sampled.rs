@@ -32,7 +32,7 @@ impl Results<'_> {
                 .collect();
             sort_by(&mut inputs, |a, b| b.0.total_cmp(&a.0));
             for (_, factor) in inputs.into_iter().take(MOST_INPUTS) {
-                let (x_axis, x_size) = words::axis(&self.study.layout.inputs[factor].name);
+                let (x_axis, x_size) = self.input_axis(factor);
                 let xs = self.input(factor);
                 let mut points: Vec<[f64; 2]> = xs
                     .iter()

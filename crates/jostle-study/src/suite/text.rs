@@ -93,6 +93,15 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         ".total_acceleration_peak_m_s2",
         ".base_shear_peak_n",
     ];
+    // Names of quantities join those of a pair by a hyphen.
+    let gaps = results.records.first().into_iter();
+    let gaps = gaps.flat_map(|record| list(&record.summary, "gaps"));
+    let pairs: Vec<(String, String)> = gaps
+        .map(|gap| {
+            let names: Vec<&str> = list(gap, "between").filter_map(|name| name.as_str()).collect();
+            (names.join("-"), names.join(" ↔ "))
+        })
+        .collect();
     let all = results.quantities.iter().filter_map(|quantity| {
         let owned = ENDS.iter().find_map(|(end, words)| {
             let owner = quantity.name.strip_suffix(end)?;
@@ -107,6 +116,8 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
                 Some(owner) => (owner, ", range of bearings"),
                 None => (owner, ""),
             };
+            let pair = pairs.iter().find(|(joined, _)| joined == owner);
+            let owner = pair.map_or(owner, |(_, pair)| pair);
             plain.then(|| format!("{owner}, {words}{along}{range}"))
         })?;
         Some((owned, quantity))
@@ -189,8 +200,17 @@ impl SuiteResults {
             "\n{:width$}  {:>7}  {:>7}  {:>10}",
             "record", "peak", "impacts", "force"
         )?;
-        for name in &buildings {
-            write!(text, "  {:>12}", format!("drift {name}"))?;
+        // Of a building with a plan, the drift of its corners.
+        let of_corners = |name: &str| self.quantity(&format!("{name}.drift_corner_peak"));
+        let heads: Vec<String> = buildings
+            .iter()
+            .map(|name| match of_corners(name) {
+                Some(_) => format!("corner drift {name}"),
+                None => format!("drift {name}"),
+            })
+            .collect();
+        for head in &heads {
+            write!(text, "  {head:>12}")?;
         }
         writeln!(text)?;
         for record in self.records.iter().take(LISTED) {
@@ -214,13 +234,13 @@ impl SuiteResults {
                 FORCE.number(force, 1),
                 FORCE.name()
             )?;
-            for name in &buildings {
+            for (name, head) in buildings.iter().zip(&heads) {
                 let index = self.records.iter().position(|r| std::ptr::eq(r, record));
-                // Of a building with a plan, that of its corners.
-                let of = |key: &str| self.quantity(&format!("{name}.{key}"));
-                let drift = of("drift_corner_peak").or_else(|| of("drift_peak"));
+                let of_axes = || self.quantity(&format!("{name}.drift_peak"));
+                let drift = of_corners(name).or_else(of_axes);
                 let drift = drift.zip(index).and_then(|(q, index)| q.values[index]);
-                write!(text, "  {:>10.3} %", 100.0 * drift.unwrap_or(f64::NAN))?;
+                let width = head.chars().count().max(12) - 2;
+                write!(text, "  {:>width$.3} %", 100.0 * drift.unwrap_or(f64::NAN))?;
             }
             writeln!(text)?;
         }

@@ -55,7 +55,7 @@ pub(super) fn damping_with_hinges(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         tally.add(ratio, || {
             let text = format!(
-                "{} yields with {:.1} % of critical damping in its first mode: what yielding dissipates comes on top",
+                "{} yields with {:.1} % of critical damping in its first mode: hysteretic dissipation is additional",
                 quoted(&building.name),
                 100.0 * ratio
             );

@@ -28,7 +28,7 @@ pub(super) fn indentation(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(depth, || {
             let place = gap.between.join(" ↔ ");
             let text = format!(
-                "{place}: an impact indents the floors by {:.0} mm; concrete crushes before",
+                "{place}: an impact indents the floors by {:.0} mm; concrete would crush first",
                 1e3 * depth
             );
             (place, text)
@@ -117,7 +117,7 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(pressure / strength, || {
                 let place = gap_summary.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: {:.0} kN press a slab of {:.0} mm along {width:.1} m with {:.0} MPa, above the {:.0} MPa of its concrete: it crushes before",
+                    "{place}: {:.0} kN press a slab of {:.0} mm along {width:.1} m with {:.0} MPa, above the {:.0} MPa of its concrete: it would crush first",
                     1e-3 * contact.peak_force_n,
                     1e3 * SLAB,
                     1e-6 * pressure,

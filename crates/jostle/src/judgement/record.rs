@@ -23,7 +23,7 @@ pub(super) fn records(known: &Known<'_>, tally: &mut Tally<'_>) {
             1 => "one record, one sign".to_owned(),
             _ => format!("{count} records, one sign"),
         };
-        let text = format!("{what}: no design value; codes want 3, 7 or 11 records");
+        let text = format!("{what}: no design value; codes require 3, 7 or 11 records");
         (motion.name.clone(), text)
     });
 }

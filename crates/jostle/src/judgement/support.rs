@@ -12,7 +12,7 @@ pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
         };
         tally.add(f64::from(u8::from(isolation.bounds.is_none())), || {
             let text = format!(
-                "{}: one set of bearing properties; codes want lower and upper bounds, which decide stroke and force",
+                "{}: one set of bearing properties; codes require lower and upper bounds, which decide stroke and force",
                 quoted(&building.name)
             );
             (building.name.clone(), text)

@@ -191,7 +191,7 @@ pub const CHECKS: &[Check] = &[
             "UFGS-03700, tolerances for formed surfaces",
             "temperature: judgement",
         ],
-        remedy: "measure the gap as built, or try narrower ones too",
+        remedy: "measure the gap as built, or also run narrower gaps",
         measure: gap::tolerance,
     },
     Check {

@@ -204,10 +204,24 @@ const WRAPPED: &[(&[u8], &str, &str)] = &[
     (b"\xfe\xff", "text in UTF-16", "save it as UTF-8 or plain ASCII"),
 ];
 
+/// Whether a text begins as web pages do.
+fn is_page(bytes: &[u8]) -> bool {
+    let text = bytes.trim_ascii_start();
+    ["<!doctype html", "<html"]
+        .iter()
+        .any(|mark| text.get(..mark.len()).is_some_and(|start| start.eq_ignore_ascii_case(mark.as_bytes())))
+}
+
 /// Refuses what cannot be read as text.
 pub(crate) fn check_text(bytes: &[u8]) -> Result<(), RecordError> {
     if let Some((_, what, remedy)) = WRAPPED.iter().find(|(mark, ..)| bytes.starts_with(mark)) {
         return Err(RecordError::Wrapped { what, remedy });
+    }
+    if is_page(bytes) {
+        return Err(RecordError::Wrapped {
+            what: "a web page (HTML)",
+            remedy: "save the record that the page links to, not the page",
+        });
     }
     if bytes.contains(&0) {
         return Err(RecordError::Binary);

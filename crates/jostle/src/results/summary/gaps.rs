@@ -40,7 +40,7 @@ pub struct GapSummary {
     /// Instant of the first impact \[s\].
     pub first_impact_s: Option<f64>,
     /// Greatest closing of any contact when the buildings pass through each other, less what it is wider than the
-    /// others: the smallest gap without pounding; `null` when that run was not made \[m\].
+    /// others: the gap needed; `null` when that run was not made \[m\].
     pub closing_without_contact_m: Option<f64>,
 }
 
@@ -66,7 +66,7 @@ impl GapSummary {
 
     /// Numbers of the run without contact; in studies if they ask for it.
     pub const WITHOUT_CONTACT: &[Quantity<Self>] = &[
-        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the smallest gap without pounding; in studies with `without_contact = true`", |g| g.closing_without_contact_m).in_study(),
+        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the gap needed; in studies with `without_contact = true`", |g| g.closing_without_contact_m).in_study(),
     ];
 }
 
