@@ -5,7 +5,7 @@ use jostle::history::{Column, EnergyTerm, History, Kind, Owner};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
-use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
+use jostle::results::summary::{BuildingSummary, ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
 use jostle::system::Direction;
 use serde::Serialize;
@@ -282,7 +282,13 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     let walls = walls::walls(page);
     let payload = Payload {
         duration: duration(page, &time),
-        buildings: page.model.buildings.iter().map(outline).collect(),
+        buildings: {
+            let buildings = page.model.buildings.iter().enumerate();
+            let summary = |index: usize| page.summary.buildings.get(index);
+            buildings
+                .map(|(index, building)| outline(building, summary(index)))
+                .collect()
+        },
         gaps: gaps(page, &walls),
         links: links(page, &walls),
         ground: ground(page.motion, budget.ground, pack),
@@ -445,7 +451,7 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
     }
 }
 
-fn outline(building: &Building) -> Outline<'_> {
+fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Outline<'a> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
     let (frame, spans) = match &building.structure {
@@ -491,7 +497,11 @@ fn outline(building: &Building) -> Outline<'_> {
         let diagonals = frame.diagonals.iter();
         diagonals.map(|diagonal| DiagonalData::in_space(frame, diagonal))
     });
+    let parts = summary.into_iter().flat_map(|summary| &summary.parts);
+    let struts = parts.filter(|part| matches!(part.kind, "brace" | "infill"));
+    let mut fallen = struts.map(|part| part.fallen_s);
     let diagonals = of_plane.map(DiagonalData::of).chain(of_space);
+    let diagonals = diagonals.map(|diagonal| diagonal.until(fallen.next().flatten()));
     let footing = building.base.foundation;
     Outline {
         plans,
