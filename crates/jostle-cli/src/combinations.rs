@@ -187,6 +187,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "elevation of the base", keys: "elevation = \"-1.4 m\"\n", ..USUAL },
         Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
+        Feature { name: "infill panels that fall out", tables: "[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = 0.2\nwidth = \"mainstone\"\nout_of_plane = { strength = \"4 kPa\", density = 1400, remove = true }\n", ..USUAL },
         Feature { name: "struts off the joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },
         Feature { name: "walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\n", ..USUAL },
         Feature { name: "walls that yield at the ends of every storey", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\nhinge = { rule = \"bilinear\", ends = \"all\", initial = 100, yield = \"2 MN.m\", post_yield = 0.02 }\n", keys: OWN_WORDS, ..USUAL },

@@ -377,7 +377,8 @@ class Scene {
         .join("");
     part.columns.setAttribute("d", lines.map((x, line) => column(x, sway, line)).join(""));
     part.floors.setAttribute("d", floor(sway));
-    this.drawDiagonals(part, building.diagonals ?? [], lines, heights, sway);
+    const standing = (building.diagonals ?? []).filter(({ until }) => until === undefined || t < until);
+    this.drawDiagonals(part, standing, lines, heights, sway);
     this.drawWalls(part, building.walls ?? [], lines, heights, sway);
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
     this.drawHinges(part, lines, heights, sway, t);

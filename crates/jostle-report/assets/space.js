@@ -323,8 +323,8 @@ class SpaceScene {
     });
     // Braces of a space frame as lines between joints, its infill panels as shaded bays: both struts of a panel lie in one.
     const joint = ([x, y], level) => this.at(level > 0 ? this.moved(i, level - 1, [x, y], state[level - 1]) : building.mat ? this.moved(i, -1, [x, y], this.floorNow(i, -1)) : [sx + x, sy + y, 0]);
-    for (const { ends, storey, infill, lines } of building.diagonals) {
-      if (infill && lines[0] > lines[1]) continue;
+    for (const { ends, storey, infill, lines, until } of building.diagonals) {
+      if ((infill && lines[0] > lines[1]) || this.time >= until) continue;
       const [low, high] = ends;
       const seen = infill
         ? [joint(low, storey - 1), joint(high, storey - 1), joint(high, storey), joint(low, storey)]

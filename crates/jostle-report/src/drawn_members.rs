@@ -17,6 +17,9 @@ pub(crate) struct DiagonalData {
     /// Its lower and its upper end on the site, in a space frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<[[f64; 2]; 2]>,
+    /// When its panel falls out \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    until: Option<f64>,
 }
 
 /// A wall of a frame.
@@ -50,6 +53,15 @@ impl DiagonalData {
             infill: diagonal.place.kind == DiagonalKind::Infill,
             stage: None,
             ends: None,
+            until: None,
+        }
+    }
+
+    /// The same until its panel falls out, if it does.
+    pub(crate) fn until(self, fallen: Option<f64>) -> Self {
+        Self {
+            until: fallen,
+            ..self
         }
     }
 

@@ -27,6 +27,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         (message::greatest_compression(), format::FORCE.name()),
         (message::dissipated(), format::ENERGY.name()),
         (message::across_its_plane(), ""),
+        (message::falls_at(), "s"),
     ];
     Some(html! {
         section #panels {
@@ -71,12 +72,11 @@ fn sentence(name: &str, panels: &[PanelDamageSummary]) -> String {
     message::panels_of_states(name, counts, panels.len())
 }
 
-/// Drift, damage state, greatest compression of its struts, what they dissipated, and its ratio across its plane.
-fn cells(building: &BuildingSummary, panel: &PanelDamageSummary) -> [String; 5] {
-    let struts = building.parts.iter().filter(|part| {
-        let rest = part.name.strip_prefix(&panel.name);
-        rest.is_some_and(|rest| rest.starts_with('.'))
-    });
+/// Drift, damage state, greatest compression of its struts, what they dissipated, its ratio across its plane, and when it falls out.
+fn cells(building: &BuildingSummary, panel: &PanelDamageSummary) -> [String; 6] {
+    let struts = building.parts.iter();
+    let struts = struts.filter(|part| part.panel() == panel.name);
+    let fallen = struts.clone().find_map(|strut| strut.fallen_s);
     let force = struts.clone().map(|strut| -strut.force_min_n);
     let dissipated: f64 = struts.clone().map(|strut| strut.dissipated_j).sum();
     let across = struts.filter_map(|strut| strut.out_of_plane_ratio);
@@ -90,5 +90,6 @@ fn cells(building: &BuildingSummary, panel: &PanelDamageSummary) -> [String; 5] 
             || format::NOTHING.to_owned(),
             |ratio| format::fixed(ratio, 2),
         ),
+        fallen.map_or_else(|| format::NOTHING.to_owned(), |at| format::fixed(at, 3)),
     ]
 }

@@ -447,12 +447,12 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
 }
 
 fn outlines<'a>(page: &Page<'a>) -> Vec<Outline<'a>> {
-    let buildings = page.model.buildings.iter();
-    let buildings = buildings.zip(&page.summary.buildings);
-    buildings.map(|(building, summary)| outline(building, summary)).collect()
+    let buildings = page.model.buildings.iter().enumerate();
+    let summary = |index: usize| page.summary.buildings.get(index);
+    buildings.map(|(index, building)| outline(building, summary(index))).collect()
 }
 
-fn outline<'a>(building: &'a Building, summary: &BuildingSummary) -> Outline<'a> {
+fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Outline<'a> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
     let (frame, spans) = match &building.structure {
@@ -498,9 +498,14 @@ fn outline<'a>(building: &'a Building, summary: &BuildingSummary) -> Outline<'a>
         let diagonals = frame.diagonals.iter();
         diagonals.map(|diagonal| DiagonalData::in_space(frame, diagonal))
     });
-    let mut stages = strut_stages(building, summary).into_iter();
+    let stages = summary.map(|summary| strut_stages(building, summary));
+    let mut stages = stages.into_iter().flatten();
+    let parts = summary.into_iter().flat_map(|summary| &summary.parts);
+    let struts = parts.filter(|part| matches!(part.kind, "brace" | "infill"));
+    let mut fallen = struts.map(|part| part.fallen_s);
     let diagonals = of_plane.map(DiagonalData::of).chain(of_space);
-    let diagonals = diagonals.map(|mut diagonal| {
+    let diagonals = diagonals.map(|diagonal| {
+        let mut diagonal = diagonal.until(fallen.next().flatten());
         if diagonal.infill {
             diagonal.stage = stages.next().flatten();
         }

@@ -24,6 +24,9 @@ pub(crate) fn tiles(page: &Page) -> Markup {
     let mut tiles = gaps(summary);
     tiles.extend(drift(summary));
     tiles.extend(members(summary));
+    tiles.extend(levels(summary));
+    tiles.extend(strains(summary));
+    tiles.extend(fallen(summary));
     tiles.extend(struck_column(summary));
     tiles.extend(damaged(page));
     tiles.extend(impacts(summary));
@@ -175,6 +178,58 @@ fn members(summary: &Summary) -> Option<Tile> {
     let note = message::worst_member(&member.member, member.kind, ratio);
     let value = message::one_of_all(beyond, all);
     Some(tile(message::members_beyond_capacity(), value, note))
+}
+
+/// Members beyond stated limits of rotation, by level, and the worst of them.
+fn levels(summary: &Summary) -> Option<Tile> {
+    let levels = summary.buildings.iter();
+    let levels = levels.filter_map(|building| building.rotation_levels.as_ref());
+    let worst = levels
+        .clone()
+        .filter_map(|all| all.list.first())
+        .max_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
+    let beyond = levels.clone().fold([0; 3], |[io, ls, cp], all| {
+        [io + all.beyond_io, ls + all.beyond_ls, cp + all.beyond_cp]
+    });
+    let members = levels.map(|all| all.members).sum::<usize>();
+    let value = beyond.map(|count| count.to_string()).join(" / ");
+    let ratio = format::fixed(worst.ratio, 2);
+    let note = message::worst_of_members(members, &worst.member, ratio);
+    Some(tile(message::members_beyond_io_ls_cp(), value, note))
+}
+
+/// Ends of columns of fibres beyond strains that are judged, and when the first was.
+fn strains(summary: &Summary) -> Option<Tile> {
+    let buildings = summary.buildings.iter();
+    let all = buildings.filter_map(|building| building.strains.as_ref());
+    let worst = all.clone().map(|all| all.ratio).reduce(f64::max)?;
+    let ends = all.clone().map(|all| all.ends).sum::<usize>();
+    let passed = summary
+        .buildings
+        .iter()
+        .flat_map(|building| &building.sections);
+    let passed = passed.filter(|end| end.limits.iter().any(|limit| limit.passed_s.is_some()));
+    let first = all.filter_map(|all| all.first_s).reduce(f64::min);
+    let note = match first {
+        Some(first) => message::first_at(format::instant(first)),
+        None => message::greatest_over_limit(format::fixed(worst, 2)),
+    };
+    let value = message::one_of_all(passed.count(), ends);
+    Some(tile(message::ends_beyond_strains(), value, note))
+}
+
+/// Infill panels that fell out, where any did.
+fn fallen(summary: &Summary) -> Option<Tile> {
+    let buildings = summary.buildings.iter();
+    let panels = buildings.filter_map(|building| building.panels.as_ref());
+    let fallen = panels.clone().map(|all| all.fallen).sum::<usize>();
+    let total = panels.clone().map(|all| all.total).sum::<usize>();
+    let first = panels.filter_map(|all| all.first_fall_s).reduce(f64::min)?;
+    Some(tile(
+        message::panels_fallen(),
+        message::one_of_all(fallen, total),
+        message::first_at(format::instant(first)),
+    ))
 }
 
 /// Of the columns that a neighbour struck between floors, the one with the greatest demand over capacity, or with the hardest

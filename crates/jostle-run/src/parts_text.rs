@@ -41,8 +41,9 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 writeln!(
                     text,
-                    "Out-of-plane demand of panels of {}: up to {ratio:.2} of their strength, in {name}",
-                    building.name
+                    "Out-of-plane demand of panels of {}: up to {ratio:.2} of their strength, in {name}{}",
+                    building.name,
+                    fallen(building)
                 )?;
             }
         }
@@ -76,6 +77,19 @@ fn write_damage(text: &mut String, building: &BuildingSummary) -> std::fmt::Resu
         100.0 * worst.drift,
         worst.name
     )
+}
+
+/// Which panels fall out, if any does.
+fn fallen(building: &BuildingSummary) -> String {
+    let panels = building.fallen_panels();
+    let first = panels.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    first.map_or_else(String::new, |(name, at)| {
+        let verb = if panels.len() == 1 { "falls" } else { "fall" };
+        format!(
+            "; {} {verb} out, {name} first at {at:.3} s",
+            counted(panels.len(), "panel")
+        )
+    })
 }
 
 /// Which braces buckle, if any does.

@@ -5,7 +5,8 @@ use jostle::results::in_plan::{BuildingInPlan, FloorInPlan};
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, IsolationInPlan,
-    IsolationSummary, LinkSummary, MotionSummary, ShearFailureSummary, WorkSummary,
+    IsolationSummary, LinkSummary, MotionSummary, PanelsSummary, RotationLevelsSummary,
+    ShearFailureSummary, StrainsSummary, WorkSummary,
 };
 use jostle::{GroundMotion, Quantity, Summary, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
@@ -155,6 +156,18 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
     if let Some(failures) = &building.shear_failures {
         let place = format!("{place}shear_failures_");
         list.add(&place, ShearFailureSummary::QUANTITIES, failures);
+    }
+    if let Some(levels) = &building.rotation_levels {
+        let place = format!("{place}rotation_levels_");
+        list.add(&place, RotationLevelsSummary::QUANTITIES, levels);
+    }
+    if let Some(panels) = &building.panels {
+        let place = format!("{place}panels_");
+        list.add(&place, PanelsSummary::QUANTITIES, panels);
+    }
+    if let Some(strains) = &building.strains {
+        let place = format!("{place}strains_");
+        list.add(&place, StrainsSummary::QUANTITIES, strains);
     }
     if let Some(isolation) = &building.isolation {
         let place = format!("{place}isolation_");

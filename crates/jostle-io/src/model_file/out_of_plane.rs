@@ -14,6 +14,7 @@ pub(super) struct OutOfPlane {
     height: Option<f64>,
     thickness: f64,
     surface_mass: f64,
+    falls: bool,
 }
 
 enum Strength {
@@ -53,6 +54,10 @@ fn read_table(reader: &mut Reader<'_>, infill: &View<'_>, field: &Field<'_>) -> 
         Some(field) => Some(reader.positive(&field, Dimension::Length)?),
         None => None,
     };
+    let falls = match reader.get(&view, "remove") {
+        Some(field) => reader.flag(&field),
+        None => Some(false),
+    };
     let strength = strength(reader, infill, &view, field);
     let (thickness, density) = (thickness?, density?);
     Some(OutOfPlane {
@@ -60,6 +65,7 @@ fn read_table(reader: &mut Reader<'_>, infill: &View<'_>, field: &Field<'_>) -> 
         height,
         thickness,
         surface_mass: density * thickness,
+        falls: falls?,
     })
 }
 
@@ -148,6 +154,7 @@ impl OutOfPlane {
         Some(PanelAcross {
             strength,
             surface_mass: self.surface_mass,
+            falls: self.falls,
         })
     }
 }

@@ -351,8 +351,11 @@ fn panels_bear_pressure_across_their_plane() {
         ),
     ] {
         let all = diagonals(&panel(more));
-        for diagonal in all {
+        let falling = diagonals(&panel(&more.replace("density", "remove = true, density")));
+        for (diagonal, falling) in all.iter().zip(&falling) {
             let across = diagonal.across.expect("it is compared");
+            let falls = falling.across.expect("it is compared");
+            assert!(falls.falls && !across.falls);
             assert!(
                 (across.strength / strength - 1.0).abs() < 1e-12,
                 "{more}: {across:?}"

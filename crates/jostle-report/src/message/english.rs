@@ -518,6 +518,11 @@ messages! {
     storey_of(name, storey) = "{name}, storey {storey}";
     members_beyond_capacity = "Members beyond capacity";
     worst_member(member, kind, ratio) = "{member} in {kind}: {ratio} times its capacity";
+    members_beyond_io_ls_cp = "Members beyond IO / LS / CP";
+    worst_of_members(members, member, ratio) = "of {members}; {member} reaches {ratio} of its highest limit";
+    ends_beyond_strains = "Column ends beyond strain limits";
+    greatest_over_limit(ratio) = "up to {ratio} of a limit";
+    panels_fallen = "Infill panels fallen out";
     worst_struck_column = "Worst struck column";
     times_its_capacity(ratio) = "{ratio} × capacity";
     struck_up_to(times, force) = "struck {times} ×, up to {force}";
@@ -1160,6 +1165,7 @@ messages! {
     panel = "panel";
     damage_state = "damage state";
     across_its_plane = "across its plane";
+    falls_at = "falls out at";
 
     // rotation_levels
     levels_of_members = "Members against stated limits";

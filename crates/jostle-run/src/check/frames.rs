@@ -267,7 +267,11 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
         text += &format!(", damaged at drifts of {} %", drifts.join(" / "));
     }
     let panels = diagonals.iter().filter_map(|diagonal| diagonal.across);
-    let accelerations = panels.map(|panel| panel.strength / panel.surface_mass / STANDARD_GRAVITY);
+    let fall = match panels.clone().any(|panel| panel.falls) {
+        true => " (falls out beyond it)",
+        false => "",
+    };
+    let accelerations = panels.map(|panel| panel.limit() / STANDARD_GRAVITY);
     let [least, most] = accelerations.fold([f64::INFINITY, 0.0], |[least, most], acceleration| {
         [f64::min(least, acceleration), f64::max(most, acceleration)]
     });
@@ -276,7 +280,7 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
             true => format!("{most:.2}"),
             false => format!("{least:.2} to {most:.2}"),
         };
-        text += &format!(", out-of-plane strength {range} g");
+        text += &format!(", out-of-plane strength {range} g{fall}");
     }
     text
 }

@@ -342,7 +342,8 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let buckles = "profile = \"HEB120\"\nhinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"275 MPa\" }";
     let braced = BRACED.replace(yields, buckles);
     let panel = "width = \"1.4 m\"\n";
-    let across = "out_of_plane = { strength = \"4 kPa\", density = \"1400 kg/m3\" }\n";
+    let across =
+        "out_of_plane = { strength = \"4 kPa\", density = \"1400 kg/m3\", remove = true }\n";
     let braced = braced.replace(panel, &format!("{panel}{across}"));
     let parts = [&braced[..], WALLED, LIFTING, FIBRED];
     let parts =

@@ -1,7 +1,7 @@
 //! Springs that bear compression alone: stops, struts, and the ground under a foundation.
 
 use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
-use super::memory::{HysteresisMemory, Response};
+use super::memory::{Branch, HysteresisMemory, Response};
 use super::pinched;
 use super::rule::{Hysteresis, HysteresisRule};
 
@@ -53,6 +53,23 @@ impl Hysteresis {
                     self.rule.name()
                 ),
             }),
+        }
+    }
+
+    /// Whether the spring can be removed from the model: struts, which bear compression alone.
+    #[must_use]
+    pub fn can_be_removed(&self) -> bool {
+        match self.rule {
+            HysteresisRule::Stop { clearance, .. } => clearance == 0.0,
+            HysteresisRule::Pinched(_) => self.backbone.open_side().is_some(),
+            _ => false,
+        }
+    }
+
+    /// Takes a strut out of the model: it has no force from now on, and what it had stored is lost. Other springs stay as they are.
+    pub fn remove(&self, memory: &mut HysteresisMemory) {
+        if self.can_be_removed() {
+            (memory.branch, memory.force) = (Branch::Gone, 0.0);
         }
     }
 
@@ -112,7 +129,10 @@ pub(super) fn stop(
     memory: &HysteresisMemory,
     deformation: f64,
 ) -> Response {
-    let into = (sign * deformation - clearance).max(0.0);
+    let into = match memory.branch {
+        Branch::Gone => 0.0,
+        _ => (sign * deformation - clearance).max(0.0),
+    };
     let force = sign * stiffness * into;
     Response {
         force,

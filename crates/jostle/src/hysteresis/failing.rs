@@ -196,7 +196,7 @@ fn ahead(curve: &Curve, memory: &HysteresisMemory, towards: Side) -> Line {
         force: sign * corner.force,
     };
     match memory.branch {
-        Branch::Virgin => Line {
+        Branch::Virgin | Branch::Gone => Line {
             through: Corner::default(),
             slope: curve.stiffness,
             end: Some((signed(curve.failure), Next::Backbone)),

@@ -51,16 +51,25 @@ impl HysteresisMemory {
         self.force
     }
 
-    /// Greatest deformation so far towards a side, as a magnitude ≥ 0 \[rad or m\].
+    /// Greatest deformation so far, or until it was removed, towards a side, as a magnitude ≥ 0 \[rad or m\].
     #[must_use]
     pub fn greatest(&self, side: Side) -> f64 {
         self.extremes[side.index()]
+    }
+
+    /// Whether the spring was removed from the model ([`super::Hysteresis::remove`]).
+    #[must_use]
+    pub fn is_gone(&self) -> bool {
+        self.branch == Branch::Gone
     }
 
     /// Sets the point reached when moving to a side.
     #[inline]
     pub(super) fn stand_at(&mut self, deformation: f64, force: f64, side: Side) {
         (self.deformation, self.force) = (deformation, force);
+        if self.branch == Branch::Gone {
+            return;
+        }
         let extreme = &mut self.extremes[side.index()];
         *extreme = extreme.max(side.sign() * deformation);
     }
@@ -112,6 +121,8 @@ pub(super) enum Branch {
     Unloading,
     /// Moving towards the peak of a side.
     Reloading,
+    /// Removed from the model: without force from then on.
+    Gone,
 }
 
 /// Response to a trial deformation.
@@ -139,4 +150,6 @@ pub enum Stage {
     Yielded,
     /// A brace that has buckled, whether it has yielded in tension or not.
     Buckled,
+    /// Removed from the model, as a strut of a panel that has fallen out.
+    Gone,
 }

@@ -128,7 +128,7 @@ fn ahead(
         force: sign * corner.force,
     };
     match memory.branch {
-        Branch::Virgin => Piece {
+        Branch::Virgin | Branch::Gone => Piece {
             through: Corner::default(),
             slope: backbone.initial(),
             end: Some((signed(curve.cracking), Next::Crack)),
@@ -237,7 +237,7 @@ pub(super) fn unloading_stiffness(
         return backbone.initial();
     };
     match memory.branch {
-        Branch::Virgin => backbone.initial(),
+        Branch::Virgin | Branch::Gone => backbone.initial(),
         Branch::Unloading => memory.unloading,
         Branch::Backbone | Branch::Reloading => {
             let peak = memory.peaks[side.index()];

@@ -295,6 +295,11 @@ fn ahead(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> Line 
                 end: Some((end, next)),
             }
         }
+        Branch::Gone => Line {
+            through: Corner::default(),
+            slope: 0.0,
+            end: None,
+        },
         Branch::Unloading if memory.side == towards => Line {
             through: memory.turn,
             slope: memory.unloading,
@@ -434,6 +439,7 @@ pub(super) fn unloading_stiffness(
     }
     match memory.branch {
         Branch::Virgin => backbone.initial(),
+        Branch::Gone => 0.0,
         Branch::Unloading => memory.unloading,
         Branch::Backbone | Branch::Reloading => slope_from(
             backbone,

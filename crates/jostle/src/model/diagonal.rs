@@ -31,7 +31,7 @@ pub struct Diagonal {
     /// How far its lower end lies above the joint there, and its upper end below the other joint, along the columns: both ≥ 0, at most a
     /// quarter of the storey, and zero in a space frame \[m\].
     pub offsets: [f64; 2],
-    /// What the panel of a strut bears across its plane, if that is compared; it has no part in the motion.
+    /// What the panel of a strut bears across its plane, if that is compared; it has no part in the motion unless the panel falls.
     pub across: Option<PanelAcross>,
     /// How the panel of a strut is damaged, if that is judged; it has no part in the motion either.
     pub damage: Option<PanelDamage>,
@@ -70,7 +70,7 @@ impl PanelDamage {
 ///
 /// ```
 /// // 200 mm of masonry of 1400 kg/m³ that bears 5 kPa falls at an acceleration of 17.9 m/s².
-/// let panel = jostle::PanelAcross { strength: 5e3, surface_mass: 0.2 * 1400.0 };
+/// let panel = jostle::PanelAcross { strength: 5e3, surface_mass: 0.2 * 1400.0, falls: false };
 /// assert!((panel.ratio(17.9) - 1.0).abs() < 0.01);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,9 +79,17 @@ pub struct PanelAcross {
     pub strength: f64,
     /// Mass per area, > 0 \[kg/m²\].
     pub surface_mass: f64,
+    /// Whether its struts leave the model once its inertia force has exceeded that.
+    pub falls: bool,
 }
 
 impl PanelAcross {
+    /// Acceleration at which its inertia force is what it bears \[m/s²\].
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        self.strength / self.surface_mass
+    }
+
     /// Inertia force under an acceleration \[m/s²\] over what the panel bears \[–\].
     #[must_use]
     pub fn ratio(&self, acceleration: f64) -> f64 {

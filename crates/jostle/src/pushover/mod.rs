@@ -187,6 +187,7 @@ impl Pushover {
                     matches!(event.kind, PushEventKind::Cracks | PushEventKind::Yields)
                 }
                 Stage::Yielded | Stage::Buckled => event.kind == PushEventKind::Yields,
+                Stage::Gone => false,
             })
         })
     }

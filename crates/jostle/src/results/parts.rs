@@ -31,6 +31,12 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
             let drift = -changed.least.value * damage.drift_per_shortening;
             (drift, damage.state(drift))
         });
+        let fallen_s = spring.and_then(|spring| {
+            let global = building.spring_offset + spring;
+            let mut events = outcome.spring_events.iter();
+            let event = events.find(|event| event.spring == global && event.stage == Stage::Gone);
+            event.map(|event| event.time)
+        });
         let buckled_s = spring.and_then(|spring| {
             let global = building.spring_offset + spring;
             let law = &building.equations.springs[spring].hysteresis;
@@ -45,7 +51,7 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
                 let spring_summary = &springs[spring];
                 // What is elastic as long as it touches dissipates nothing; rounding errors of its work are no loss.
                 let rule = building.equations.springs[spring].hysteresis.rule();
-                let elastic = matches!(rule, HysteresisRule::Stop { .. });
+                let elastic = matches!(rule, HysteresisRule::Stop { .. }) && fallen_s.is_none();
                 let dissipated = if elastic {
                     0.0
                 } else {
@@ -73,6 +79,7 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
             out_of_plane_ratio: diagonal
                 .across
                 .map(|panel| panel.ratio(acceleration_across(index, building, diagonal, run))),
+            fallen_s,
             drift: damage.map(|(drift, _)| drift),
             damage_state: damage.map(|(_, state)| state),
             ..PartSummary::default()
@@ -93,7 +100,7 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
 }
 
 /// Greatest total acceleration across the plane of a panel, of the floors below and above it. In one plane it is that along the row: the
-/// building is taken to move as much the other way. Below the lowest storey it is the ground of the model, in one plane \[m/s²\].
+/// building is taken to move as much the other way. Below the lowest storey it is the mat or the ground of the model, in one plane \[m/s²\].
 fn acceleration_across(
     index: usize,
     building: &BuildingSystem,
@@ -117,6 +124,7 @@ fn acceleration_across(
     };
     let below = match diagonal.place.storey {
         1 if in_plan => 0.0,
+        1 if building.support.is_some() => of_floor(0),
         1 => run.motion.peak(),
         storey => of_floor(storey - 1),
     };
@@ -130,6 +138,17 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
         let parts = building.parts.iter();
         let beyond = parts.filter_map(|part| Some((ratio(part)?, &part.name)));
         let worst = beyond.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let fallen = building.fallen_panels();
+        if let Some((first, at)) = fallen.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
+            return Some(format!(
+                "infill panels of \"{}\" fall out of their plane: {}, {first} first at {at:.3} s; their struts bear nothing from then on",
+                building.name,
+                match fallen.len() {
+                    1 => "one".to_owned(),
+                    count => count.to_string(),
+                }
+            ));
+        }
         Some(format!(
             "infill panels of \"{}\" can fall out of their plane: {} needs {:.2} times what it bears; the model keeps its struts all the same",
             building.name, worst.1, worst.0

@@ -12,10 +12,10 @@ use super::summary::{
     ContactSummary, EnergySummary, ExceededSummary, FibreAcrossSummary, FibreSummary, FloorSummary,
     ForcesSummary, FoundationAcross, FoundationSummary, GapSummary, HingeSummary, ImpactSummary,
     IsolationInPlan, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary,
-    MemberComparison, MemberLevel, MotionSummary, PartSummary, PromiseSummary, RatioPlace,
-    RatioSummary, ReachedLevel, RotationLevelsSummary, SectionSummary, ShearFailure,
-    ShearFailureSummary, SpringSummary, StageSummary, StrainLimitSummary, StruckSummary, Summary,
-    WallSummary, WorkSummary,
+    MemberComparison, MemberLevel, MotionSummary, PanelsSummary, PartSummary, PromiseSummary,
+    RatioPlace, RatioSummary, ReachedLevel, RotationLevelsSummary, SectionSummary, ShearFailure,
+    ShearFailureSummary, SpringSummary, StageSummary, StrainLimitSummary, StrainsSummary,
+    StruckSummary, Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -109,6 +109,8 @@ const OWNERS: &[Row] = &[
     ("Levels of members", "buildings[].rotation_levels.list[]", None, "", &[entries!(MemberLevel::QUANTITIES)]),
     ("Limits of levels", "buildings[].rotation_levels.list[].limits[]", None, "", &[entries!(ReachedLevel::QUANTITIES)]),
     ("Braces, struts, walls, coupling beams and foundations that lift off", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
+    ("Infill panels of a building", "buildings[].panels", None, "J1.panels_", &[entries!(PanelsSummary::QUANTITIES)]),
+    ("Strains that columns made of fibres passed", "buildings[].strains", None, "J1.strains_", &[entries!(StrainsSummary::QUANTITIES)]),
     ("Ends of columns made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreSummary::QUANTITIES)]),
     ("Ends of columns of space frames made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreAcrossSummary::QUANTITIES)]),
     ("Strains of fibres that are judged", "buildings[].sections[].limits[]", None, "", &[entries!(StrainLimitSummary::QUANTITIES)]),

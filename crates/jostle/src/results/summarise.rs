@@ -27,8 +27,8 @@ use crate::results::sections::sections_of;
 use crate::results::shear_failure::shear_failures;
 use crate::results::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, Floors, GapSummary, HingeSummary,
-    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
-    Summary, WorkSummary,
+    ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PanelsSummary, PromiseSummary,
+    SpringSummary, StrainsSummary, Summary, WorkSummary,
 };
 use crate::results::walls_beyond_plan::wall_warnings;
 use crate::results::{CountedImpact, counted, find_simultaneous};
@@ -187,12 +187,16 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
     let floors: Vec<FloorSummary> = floors.collect();
     let members = members_of(index, run);
     let joints = capacity::joints_of(index, run);
+    let parts = parts_of(index, building, run);
+    let sections = sections_of(index, building, run.outcome);
     BuildingSummary {
         capacity: capacity::of_building(index, &members, &joints, run),
         joints,
         members,
-        parts: parts_of(index, building, run),
-        sections: sections_of(index, building, run.outcome),
+        panels: PanelsSummary::of(&parts),
+        parts,
+        strains: StrainsSummary::of(&sections),
+        sections,
         degree_of_coupling: degree_of_coupling(index, building, run.outcome),
         shear_failures: shear_failures(index, run),
         rotation_levels: rotation_levels(index, run),

@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::damping::DampedMode;
+use super::falling_panels::FallingPanel;
 use super::limited_ends::LimitedEnd;
 use super::plan_mat::MatInPlan;
 use super::plan_soil::FoundationInPlan;
@@ -74,6 +75,8 @@ pub struct BuildingSystem {
     pub members: MemberForces,
     /// Columns whose shear strength falls with the ductility of their hinges.
     pub(crate) weakening: Vec<Weakening>,
+    /// Infill panels that leave the model when they fall.
+    pub(crate) falling_panels: Vec<FallingPanel>,
     /// Hinges whose rotations have limits.
     pub limited_ends: Vec<LimitedEnd>,
     /// The same building without neighbours on the soil, where they act on its foundation.
@@ -223,6 +226,8 @@ impl BuildingSystem {
             .filter_map(|place| structure.equations.dof(place))
             .collect();
         let modes = modes(&structure, &sweep);
+        let mat = support.map(|support| support.dof);
+        let falling_panels = FallingPanel::all(&structure, &tracks, mat);
         Self {
             structure,
             offset: 0,
@@ -243,6 +248,7 @@ impl BuildingSystem {
             modes,
             members: MemberForces::default(),
             weakening: Vec::new(),
+            falling_panels,
             limited_ends: Vec::new(),
             alone: None,
             sweep: Arc::new(sweep),

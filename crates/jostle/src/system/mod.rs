@@ -3,6 +3,7 @@
 mod assemble;
 mod building;
 mod damping;
+mod falling_panels;
 mod finite;
 mod grounds;
 mod half_space;

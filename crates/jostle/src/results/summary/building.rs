@@ -8,10 +8,12 @@ use super::hinges::HingeSummary;
 use super::isolation::{Floors, IsolationSummary};
 use super::joints::JointSummary;
 use super::members::MemberSummary;
+use super::panels::PanelsSummary;
 use super::parts::PartSummary;
 use super::rotation_levels::RotationLevelsSummary;
 use super::sections::FibreSummary;
 use super::shear_failure::ShearFailureSummary;
+use super::strains::StrainsSummary;
 use crate::quantity::{Quantity, Unit};
 use crate::results::ground::GroundSummary;
 use crate::results::in_plan::{BuildingInPlan, FloorInPlan};
@@ -72,6 +74,12 @@ pub struct BuildingSummary {
     /// Braces, struts, walls and coupling beams; absent if it has none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartSummary>,
+    /// Its infill panels together; absent without any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub panels: Option<PanelsSummary>,
+    /// Ends of columns that are made of fibres, by the strains that they passed; absent where none is judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strains: Option<StrainsSummary>,
     /// Ends of columns that are made of fibres, storey by storey; absent if it has none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sections: Vec<FibreSummary>,

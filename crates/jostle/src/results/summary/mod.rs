@@ -13,10 +13,12 @@ mod isolation;
 mod joints;
 mod links;
 mod members;
+mod panels;
 mod parts;
 mod rotation_levels;
 mod sections;
 mod shear_failure;
+mod strains;
 
 pub use super::ground::{GroundInPlan, GroundSummary};
 pub use accuracy::{PromiseSummary, WorkSummary};
@@ -36,10 +38,12 @@ pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
-pub use parts::{PanelDamageSummary, PartSummary};
+pub use panels::{PanelDamageSummary, PanelsSummary};
+pub use parts::PartSummary;
 pub use rotation_levels::{MemberLevel, ReachedLevel, RotationLevelsSummary};
 pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
+pub use strains::StrainsSummary;
 
 use serde::Serialize;
 

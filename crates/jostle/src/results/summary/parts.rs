@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::building::BuildingSummary;
 use crate::quantity::{Quantity, Unit};
 
 /// A brace, a strut of an infill panel, a wall, a coupling beam, or the ground under a foundation, which bears compression alone.
@@ -46,6 +45,9 @@ pub struct PartSummary {
     /// below and above, over that strength. Absent in others \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub out_of_plane_ratio: Option<f64>,
+    /// Of a strut whose panel has fallen out and left the model: when. Absent in others \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fallen_s: Option<f64>,
     /// Of a strut of a panel whose damage is judged: greatest drift of its bay that shortens it, ≥ 0. Absent in others \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
@@ -63,47 +65,15 @@ pub struct PartSummary {
     pub settlement_m: Option<f64>,
 }
 
-/// Damage of an infill panel: the worst of its struts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PanelDamageSummary {
-    /// Name without the way in which struts rise, such as `Old.infill.2.1`.
-    pub name: String,
-    /// Greatest drift of its bay, either way \[–\].
-    pub drift: f64,
-    /// Damage state, 0 to 4.
-    pub state: usize,
-}
-
-impl BuildingSummary {
-    /// Infill panels whose damage is judged, in the order of their struts.
+impl PartSummary {
+    /// Name of the panel of a strut: its own without the way in which it rises, such as `Old.infill.2.1`.
     #[must_use]
-    pub fn damaged_panels(&self) -> Vec<PanelDamageSummary> {
-        let mut panels: Vec<PanelDamageSummary> = Vec::new();
-        for part in &self.parts {
-            let Some((drift, state)) = part.drift.zip(part.damage_state) else {
-                continue;
-            };
-            let panel = [".foot", ".head"]
-                .iter()
-                .find_map(|end| part.name.strip_suffix(end));
-            let panel = panel.unwrap_or(&part.name);
-            let name = [".up", ".down"]
-                .iter()
-                .find_map(|way| panel.strip_suffix(way));
-            let name = name.unwrap_or(panel);
-            match panels.last_mut().filter(|known| known.name == name) {
-                Some(known) => {
-                    known.drift = known.drift.max(drift);
-                    known.state = known.state.max(state);
-                }
-                None => panels.push(PanelDamageSummary {
-                    name: name.to_owned(),
-                    drift,
-                    state,
-                }),
-            }
-        }
-        panels
+    pub fn panel(&self) -> &str {
+        let without = |name, ends: [&str; 2]| {
+            let mut shorter = ends.iter().filter_map(|end| str::strip_suffix(name, *end));
+            shorter.next().unwrap_or(name)
+        };
+        without(without(&self.name, [".foot", ".head"]), [".up", ".down"])
     }
 }
 
@@ -122,6 +92,7 @@ impl PartSummary {
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |p| p.dissipated_j),
         Quantity::<Self>::optional("buckled_s", Unit::S, "when a brace first buckled; absent if it does not", |p| p.buckled_s),
         Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "of a panel: greatest inertia force across its plane, by the accelerations of the floors below and above, over what it bears", |p| p.out_of_plane_ratio),
+        Quantity::<Self>::optional("fallen_s", Unit::S, "of a strut whose panel has fallen out and left the model: when", |p| p.fallen_s),
         Quantity::<Self>::optional("drift", Unit::NONE, "of a strut of a panel: greatest drift of its bay that shortens it, the shortening of the diagonal over the cosine of its slope and the storey height", |p| p.drift),
         Quantity::<Self>::optional("damage_state", Unit::NONE, "of a panel: damage state by that drift, 0 to 4", |p| p.damage_state.map(|damage_state| damage_state as f64)),
         Quantity::<Self>::optional("lifted_share", Unit::NONE, "of a footing: share of the run in which a contact spring bears nothing, the greatest of all", |p| p.lifted_share),

@@ -25,9 +25,9 @@ impl RotationLevelsSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("members", "members with limits of the rotation of their hinges", |r| r.members),
-        Quantity::<Self>::whole("beyond_io", "those that went beyond immediate occupancy, or a higher level", |r| r.beyond_io),
-        Quantity::<Self>::whole("beyond_ls", "those that went beyond life safety, or a higher level", |r| r.beyond_ls),
-        Quantity::<Self>::whole("beyond_cp", "those that went beyond collapse prevention", |r| r.beyond_cp),
+        Quantity::<Self>::whole("beyond_io", "those that went beyond immediate occupancy, or a higher level", |r| r.beyond_io).in_study(),
+        Quantity::<Self>::whole("beyond_ls", "those that went beyond life safety, or a higher level", |r| r.beyond_ls).in_study(),
+        Quantity::<Self>::whole("beyond_cp", "those that went beyond collapse prevention", |r| r.beyond_cp).in_study(),
     ];
 }
 

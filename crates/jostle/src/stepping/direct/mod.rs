@@ -1,6 +1,7 @@
 //! Stepping of all degrees of freedom, building by building (theory, Eqs. N2 to N4).
 
 mod factors;
+mod falling_panels;
 mod friction;
 mod integrator;
 mod joints;
@@ -94,6 +95,8 @@ pub(super) struct Direct {
     recorder: Recorder,
     members: MemberPeaks,
     observer: Observer,
+    /// Slot of the step tried last.
+    tried: usize,
     /// Short steps left after a jump of velocities.
     struck_steps: u32,
     /// How far corners are inside of the ends of edges at the end of the tried step, and its rate \[m, m/s\].
@@ -143,6 +146,7 @@ impl Direct {
             members,
             observer: Observer::new(system, motion.duration, plan.vertical.then_some(&state)),
             state,
+            tried: 0,
             struck_steps: 0,
             edge_ends: vec![[0.0; 2]; system.edge_ends.len()],
             ends_of: system.edge_ends_of_contacts(),
@@ -421,6 +425,7 @@ impl Stepper for Direct {
         slot: usize,
         end: Clock,
     ) -> Result<(), StepError> {
+        self.tried = slot;
         self.solve_step(run, slot, end)
     }
 
@@ -436,11 +441,13 @@ impl Stepper for Direct {
         self.begin_dashpot(run, link)
     }
 
-    fn damping_jump(&self, run: &RunState<'_>, step: f64) -> Option<f64> {
-        self.first_damping_jump(run, step)
+    fn sudden_change(&self, run: &RunState<'_>, step: f64) -> Option<f64> {
+        let changes = [self.first_damping_jump(run, step), self.first_fall(run)];
+        changes.into_iter().flatten().reduce(f64::min)
     }
 
-    fn jump_damping(&mut self, run: &RunState<'_>) {
+    fn make_sudden_changes(&mut self, run: &RunState<'_>) {
+        self.drop_panels(run);
         self.jump_dashpots(run);
     }
 

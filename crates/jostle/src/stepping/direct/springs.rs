@@ -82,7 +82,7 @@ pub(super) struct YieldingSprings {
     /// Slopes of the current trial lines.
     wanted: Vec<f64>,
     /// Forces with which the last step was balanced; those of the rules differ by rounding.
-    balanced: Vec<f64>,
+    pub(super) balanced: Vec<f64>,
     /// Forces of the dashpots beside springs at its end.
     pub(super) damped: Vec<f64>,
     /// Whether dashpots beside springs follow their tangents.
@@ -90,7 +90,7 @@ pub(super) struct YieldingSprings {
     /// Loads of the step without springs.
     loads: Vec<f64>,
     stages: Vec<Stage>,
-    /// Cracks and first yields so far.
+    /// Cracks and first yields so far, and panels that fell.
     pub(super) events: Vec<SpringEvent>,
     /// Greatest force and work of every spring.
     pub(super) totals: Vec<SpringTotals>,
@@ -127,7 +127,7 @@ impl YieldingSprings {
             stages: known()
                 .map(|(spring, memory)| spring.hysteresis.stage(memory))
                 .collect(),
-            events: Vec::with_capacity(2 * count),
+            events: Vec::with_capacity(3 * count),
             totals: known()
                 .map(|(spring, memory)| SpringTotals {
                     peak_force: memory.force().abs(),

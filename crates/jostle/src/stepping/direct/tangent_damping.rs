@@ -81,6 +81,7 @@ impl Direct {
     }
 }
 
-fn is_held_by_masses(spring: &YieldingSpring, mass: &[f64]) -> bool {
+/// Whether all that a spring holds has mass, so that a jump of its force is one of accelerations alone.
+pub(super) fn is_held_by_masses(spring: &YieldingSpring, mass: &[f64]) -> bool {
     spring.row.dofs().all(|dof| mass[dof] > 0.0)
 }

@@ -2,11 +2,11 @@
 
 mod contact_events;
 mod corners;
-mod damping_jumps;
 mod episodes;
 mod link_touches;
 mod run_state;
 mod stepper;
+mod sudden_changes;
 
 use contact_events::Landing;
 pub(super) use contact_events::{ContactTrial, TOGETHER};
@@ -91,9 +91,9 @@ impl<S: Stepper> Runner<'_, S> {
         for _ in 0..MOST_EVENTS_AT_ONCE {
             let (slot, next) = self.try_next_step()?;
             let event = self.first_event(next.length);
-            let damping = self.stepper.damping_jump(&self.run, next.length);
-            let damping = damping.filter(|at| event.is_none_or(|event| *at < event.at));
-            let before = damping.unwrap_or(event.map_or(1.0, |event| event.at));
+            let change = self.stepper.sudden_change(&self.run, next.length);
+            let change = change.filter(|at| event.is_none_or(|event| *at < event.at));
+            let before = change.unwrap_or(event.map_or(1.0, |event| event.at));
             if self.stepper.ends_steps_at_corners(&self.run)
                 && let Some(corner) = self.first_corner(next.length, before)
             {
@@ -108,8 +108,8 @@ impl<S: Stepper> Runner<'_, S> {
                 Some(Landing::AtStart) => continue,
                 None => {}
             }
-            if let Some(at) = damping {
-                match self.step_to_damping_jump(at, slot, &next)? {
+            if let Some(at) = change {
+                match self.step_to_sudden_change(at, slot, &next)? {
                     Landing::Later => return Ok(()),
                     Landing::AtStart => continue,
                 }

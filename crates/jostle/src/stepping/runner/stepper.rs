@@ -132,14 +132,14 @@ pub(in crate::stepping) trait Stepper {
         false
     }
 
-    /// Share of the tried step at which a dashpot first changes on the way.
-    fn damping_jump(&self, run: &RunState<'_>, step: f64) -> Option<f64> {
+    /// Share of the tried step at which a dashpot first changes on the way, or a panel falls out.
+    fn sudden_change(&self, run: &RunState<'_>, step: f64) -> Option<f64> {
         let _ = (run, step);
         None
     }
 
-    /// Gives dashpots that have changed over the accepted step their force of now.
-    fn jump_damping(&mut self, run: &RunState<'_>) {
+    /// Gives dashpots that have changed over the accepted step their force of now, and takes out panels that fall now.
+    fn make_sudden_changes(&mut self, run: &RunState<'_>) {
         let _ = run;
     }
 

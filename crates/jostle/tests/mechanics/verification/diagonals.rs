@@ -525,6 +525,7 @@ fn panels_are_compared_with_the_accelerations_of_their_floors() {
             part.across = strength.map(|strength| PanelAcross {
                 strength,
                 surface_mass: 280.0,
+                falls: false,
             });
         }
         alone(framed("A", frame))

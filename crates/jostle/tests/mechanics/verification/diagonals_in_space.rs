@@ -609,6 +609,7 @@ fn panels_are_compared_with_what_shakes_them_across() {
         diagonal.across = Some(PanelAcross {
             strength: 1e4,
             surface_mass: 280.0,
+            falls: false,
         });
         diagonal
     };

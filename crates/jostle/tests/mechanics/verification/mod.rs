@@ -18,6 +18,7 @@ mod drift_in_plan;
 mod energy_balances;
 mod extremes_are_survived;
 mod face_points;
+mod falling_panels;
 mod forces_never_pull;
 mod foundation_forces;
 mod foundations;

@@ -1,4 +1,5 @@
-//! Dashpots that change on the way, such as those in proportion to the tangents of springs that yield: steps end there.
+//! Forces that jump on the way: dashpots in proportion to the tangents of springs that yield, and panels that fall out. Steps end
+//! there.
 
 use super::contact_events::Landing;
 use super::{Runner, Stepper};
@@ -13,8 +14,8 @@ const FURTHER: f64 = 8.0;
 const MOST_TRIES: usize = 12;
 
 impl<S: Stepper> Runner<'_, S> {
-    /// Ends the step in a slot at a jump of the damping, at a share of it, or on an earlier event.
-    pub(super) fn step_to_damping_jump(
+    /// Ends the step in a slot at such a jump, at a share of it, or on an earlier event.
+    pub(super) fn step_to_sudden_change(
         &mut self,
         at: f64,
         slot: usize,
@@ -22,7 +23,7 @@ impl<S: Stepper> Runner<'_, S> {
     ) -> Result<Landing, StepError> {
         if 1.0 - at <= CLOSE {
             self.accept(slot, next.end)?;
-            self.stepper.jump_damping(&self.run);
+            self.stepper.make_sudden_changes(&self.run);
             return Ok(Landing::Later);
         }
         self.run.work.repeated_steps += 1;
@@ -34,7 +35,7 @@ impl<S: Stepper> Runner<'_, S> {
                 let shorter = NextStep { length, ..*next };
                 return self.step_to(event, &shorter);
             }
-            let corrected = match self.stepper.damping_jump(&self.run, length) {
+            let corrected = match self.stepper.sudden_change(&self.run, length) {
                 // Just past it.
                 Some(share) if (1.0 - share) * length <= close => break,
                 Some(share) => share * length + 0.5 * close,
@@ -51,7 +52,7 @@ impl<S: Stepper> Runner<'_, S> {
         }
         let tried = self.stepper.length(0);
         self.accept(0, self.run.clock.after(tried))?;
-        self.stepper.jump_damping(&self.run);
+        self.stepper.make_sudden_changes(&self.run);
         Ok(Landing::Later)
     }
 }
