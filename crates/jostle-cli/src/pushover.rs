@@ -59,6 +59,7 @@ pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {
             title,
             &pushed,
             demand.as_ref(),
+            &opened.input.model.buildings,
         ))?;
     }
     if args.json {

@@ -184,7 +184,10 @@ function bind() {
   // On paper the pictures are drawn for its width, so that their letters stay readable.
   const drawFor = (width) => {
     TimeChart.paperWidth = width;
+    // The canvas has the colours of the screen; paper is light.
+    document.documentElement.style.colorScheme = width ? "light" : "";
     scene.layout();
+    space?.layout();
     for (const chart of view.charts) chart.draw();
   };
   addEventListener("beforeprint", () => drawFor(720));

@@ -117,11 +117,15 @@ class PushView {
     ];
     this.bent.setAttribute("d", this.lines(place));
     let [cracked, yielded] = [0, 0];
-    building.hinges.forEach(([a, b, dx, dy], index) => {
-      const [first, last] = [place(a), place(b)];
+    building.hinges.forEach((where, index) => {
       const circle = this.hinges[index];
-      circle.setAttribute("cx", (0.5 * (first[0] + last[0]) + dx * this.offset).toFixed(1));
-      circle.setAttribute("cy", (0.5 * (first[1] + last[1]) - dy * this.offset).toFixed(1));
+      circle.style.display = where ? "" : "none";
+      if (where) {
+        const [a, b, dx, dy] = where;
+        const [first, last] = [place(a), place(b)];
+        circle.setAttribute("cx", (0.5 * (first[0] + last[0]) + dx * this.offset).toFixed(1));
+        circle.setAttribute("cy", (0.5 * (first[1] + last[1]) - dy * this.offset).toFixed(1));
+      }
       const [cracks, yields] = curve.hinges[index];
       const after = (at) => at !== null && roof >= at - 1e-9 * curve.end;
       const stage = after(yields) ? " yielded" : after(cracks) ? " cracked" : "";

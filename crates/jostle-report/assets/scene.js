@@ -155,18 +155,28 @@ class Scene {
     return this.base - (height - this.low) * this.scale;
   }
 
+  /** The surface of the ground: the datum, down to the foundation below a building that reaches deeper, as high as the foundation around
+   * one that stands higher. */
+  surface() {
+    let path = "";
+    page.buildings.forEach((building, i) => {
+      const foot = levelsOf(building)[0];
+      const [level, own] = [this.py(Math.max(foot, 0)), this.py(foot)];
+      const [left, right] = [this.left[i], this.left[i] + this.widths[i]].map((x) => this.px(x));
+      path += i ? `H${(left + this.px(this.left[i - 1] + this.widths[i - 1])) / 2}V${level}` : `M0,${level}`;
+      path += `H${left}V${own}H${right}V${level}`;
+    });
+    return `${path}H${this.width}`;
+  }
+
   drawBack() {
     const back = this.back;
     back.replaceChildren();
-    svg("path", { class: "ground", d: `M0,${this.base}H${this.width}` }, back);
-    svg("rect", { class: "soil", x: 0, y: this.base, width: this.width, height: 7 }, back);
+    const surface = this.surface();
+    svg("path", { class: "soil", d: `${surface}V${this.base + 7}H0Z` }, back);
+    svg("path", { class: "ground", d: surface }, back);
     page.buildings.forEach((building, i) => {
       const base = this.py(levelsOf(building)[0]);
-      if (base < this.base) {
-        const [x, width] = [this.px(this.left[i]), this.widths[i] * this.scale];
-        svg("rect", { class: "soil", x, y: base, width, height: this.base - base }, back);
-        svg("path", { class: "ground", d: `M${x},${this.base}V${base}h${width}V${this.base}` }, back);
-      }
       if (building.footing) this.drawFooting(building.footing, this.left[i] + this.widths[i] / 2, base);
       if (!building.isolated) return;
       const free = this.exaggeration * this.peak;
@@ -331,8 +341,8 @@ class Scene {
 
   /** From the bottom of a pit beside it, or from the ground, to a little above its highest contact. */
   drawWall(wall) {
-    const pit = wall.beside.some((building) => building !== null && page.buildings[building].isolated);
-    const bottom = this.base + (pit ? this.pit : 0);
+    const feet = wall.beside.filter((building) => building !== null).map((building) => page.buildings[building]);
+    const bottom = Math.max(...feet.map((building) => this.py(levelsOf(building)[0]) + (building.isolated ? this.pit : 0)));
     const top = this.py(wall.top) - Math.max(0.02 * this.top * this.scale, 5);
     const [from, to] = wall.faces.map((x) => this.px(x + this.exaggeration * this.wallSway(wall)).toFixed(2));
     wall.path.setAttribute("d", `M${from},${bottom}V${top.toFixed(2)}H${to}V${bottom}z`);
@@ -377,8 +387,7 @@ class Scene {
         .join("");
     part.columns.setAttribute("d", lines.map((x, line) => column(x, sway, line)).join(""));
     part.floors.setAttribute("d", floor(sway));
-    const standing = (building.diagonals ?? []).filter(({ until }) => until === undefined || t < until);
-    this.drawDiagonals(part, standing, lines, heights, sway);
+    this.drawDiagonals(part, building, i, heights, sway, t);
     this.drawWalls(part, building.walls ?? [], lines, heights, sway);
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
     this.drawHinges(part, lines, heights, sway, t);
@@ -397,18 +406,27 @@ class Scene {
   }
 
   /** Braces as lines between joints, infill panels as shaded bays. */
-  drawDiagonals(part, diagonals, lines, heights, sway) {
-    const at = (line, level) => `${this.px(lines[line] + this.exaggeration * sway[level]).toFixed(2)},${this.py(heights[level]).toFixed(2)}`;
+  drawDiagonals(part, building, i, heights, sway, t) {
+    // Panels that fall out are gone from then on.
+    const diagonals = (building.diagonals ?? []).filter(({ until }) => until === undefined || t < until);
+    const at = (x, level) => `${this.px(x + this.exaggeration * sway[level]).toFixed(2)},${this.py(heights[level]).toFixed(2)}`;
+    const lines = this.lines(i);
+    // Those of a space frame are seen across the row.
+    const edge = Math.min(...(building.plans ?? []).flatMap((plan) => plan.corners.map((corner) => corner[0])));
+    const xs = (own) => (own.ends ? own.ends.map((end) => this.left[i] + end[0] - edge) : own.lines.map((line) => lines[line]));
     const braces = diagonals.filter((own) => !own.infill);
-    part.braces.setAttribute("d", braces.map(({ storey, lines: [low, high] }) => `M${at(low, storey - 1)}L${at(high, storey)}`).join(""));
+    part.braces.setAttribute("d", braces.map((own) => `M${at(xs(own)[0], own.storey - 1)}L${at(xs(own)[1], own.storey)}`).join(""));
     // Both struts of a panel lie in one bay.
     const panels = diagonals.filter((own) => own.infill && own.lines[0] < own.lines[1]);
-    const panel = ({ storey, lines: [left, right] }) => `M${at(left, storey - 1)}L${at(right, storey - 1)}L${at(right, storey)}L${at(left, storey)}z`;
+    const panel = (own) => {
+      const [[left, right], storey] = [xs(own), own.storey];
+      return `M${at(left, storey - 1)}L${at(right, storey - 1)}L${at(right, storey)}L${at(left, storey)}z`;
+    };
     part.panels.setAttribute("d", panels.map(panel).join(""));
     // Struts by what they went through in the whole run.
     part.struts.forEach((path, k) => {
       const struts = this.marked ? diagonals.filter((own) => own.stage === k + 1) : [];
-      path.setAttribute("d", struts.map(({ storey, lines: [low, high] }) => `M${at(low, storey - 1)}L${at(high, storey)}`).join(""));
+      path.setAttribute("d", struts.map((own) => `M${at(xs(own)[0], own.storey - 1)}L${at(xs(own)[1], own.storey)}`).join(""));
     });
   }
 

@@ -183,7 +183,7 @@ class SpaceScene {
 
   /** Sizes the canvas, and the site to it. */
   layout() {
-    const width = Math.max(this.host.clientWidth, 240);
+    const width = TimeChart.paperWidth ?? Math.max(this.host.clientWidth, 240);
     const height = Math.min(width < 600 ? 340 : 480, Math.max(0.62 * width, 240));
     const dots = Math.min(devicePixelRatio || 1, 2);
     if (this.canvas.width !== Math.round(width * dots) || this.canvas.height !== Math.round(height * dots)) {
@@ -248,8 +248,8 @@ class SpaceScene {
 
   draw(t) {
     this.time = t;
-    if (!this.width || !this.shown) return;
-    const theme = `${document.documentElement.dataset.theme} ${matchMedia("(prefers-color-scheme: dark)").matches}`;
+    if (!this.width || !(this.shown || TimeChart.paperWidth)) return;
+    const theme = `${TimeChart.paperWidth} ${document.documentElement.dataset.theme} ${matchMedia("(prefers-color-scheme: dark)").matches}`;
     if (theme !== this.theme) {
       this.theme = theme;
       this.colours = page.buildings.map((_, i) => resolvedColour(`--c${i % 7}`));

@@ -88,6 +88,16 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
     found
 }
 
+/// A footing in words: of `Tower.footing` "footing of Tower", of `Tower.footing.2` "footing 2 of Tower".
+#[must_use]
+pub fn footing_name(name: &str) -> String {
+    match name.rsplit_once(".footing") {
+        Some((building, "")) => message::footing_of(building),
+        Some((building, line)) => message::footing_of_line(line.trim_start_matches('.'), building),
+        None => name.to_owned(),
+    }
+}
+
 /// Indices of braces among the springs of a building that can yield.
 fn braces_of(model: &Building) -> Vec<usize> {
     if !model.may_yield() {

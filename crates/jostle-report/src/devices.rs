@@ -212,7 +212,7 @@ pub(crate) fn shown<'a>(page: &Page<'a>) -> Vec<(Device<'a>, Vec<[f32; 2]>)> {
 }
 
 /// Buildings on bearings: index, input, results.
-fn isolated<'a>(
+pub(crate) fn isolated<'a>(
     page: &Page<'a>,
 ) -> impl Iterator<Item = (usize, &'a Isolation, &'a IsolationSummary)> {
     let buildings = page.model.buildings.iter().zip(&page.summary.buildings);

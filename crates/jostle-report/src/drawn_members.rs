@@ -1,12 +1,13 @@
 //! Braces, panels and walls of plane frames, and members of space frames, as the pictures of a report draw them.
 
+use jostle::model::Tiers;
 use jostle::{Diagonal, DiagonalKind, FrameWall, PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
 /// A brace, or a strut of an infill panel.
 #[derive(Serialize)]
 pub(crate) struct DiagonalData {
-    storey: usize,
+    pub(crate) storey: usize,
     /// Column lines of its lower and its upper end, from 0; lines that cross its own in a space frame.
     lines: [usize; 2],
     /// Whether it is part of a panel.
@@ -16,7 +17,7 @@ pub(crate) struct DiagonalData {
     pub(crate) stage: Option<u8>,
     /// Its lower and its upper end on the site, in a space frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
-    ends: Option<[[f64; 2]; 2]>,
+    pub(crate) ends: Option<[[f64; 2]; 2]>,
     /// When its panel falls out \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     until: Option<f64>,
@@ -37,12 +38,12 @@ pub(crate) struct WallData {
 #[derive(Serialize)]
 pub(crate) struct MemberData {
     /// Both ends on the site \[m\].
-    ends: [[f64; 2]; 2],
+    pub(crate) ends: [[f64; 2]; 2],
     /// Floors, from 0, with which they move; `null` is the ground.
-    floors: [Option<usize>; 2],
+    pub(crate) floors: [Option<usize>; 2],
     /// Half the length of a wall along its own direction, whose axis it is \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
-    wall: Option<[f64; 2]>,
+    pub(crate) wall: Option<[f64; 2]>,
 }
 
 impl DiagonalData {
@@ -73,6 +74,24 @@ impl DiagonalData {
             ..Self::of(diagonal)
         }
     }
+}
+
+/// Column lines of a building in plan as they stand beside each other along the row, from its left edge to its right one \[m\].
+pub(crate) fn lines_along(tiers: &Tiers) -> Vec<f64> {
+    /// Closer lines are drawn as one \[m\].
+    const ONE: f64 = 0.05;
+    let [from, to] = tiers.extent_along();
+    let columns = tiers
+        .space_frame
+        .iter()
+        .flat_map(MemberData::all_of)
+        .filter(|member| member.floors[0] != member.floors[1])
+        .map(|member| member.ends[0][0] - from);
+    let mut lines: Vec<f64> = columns.collect();
+    lines.extend([0.0, to - from]);
+    lines.sort_by(f64::total_cmp);
+    lines.dedup_by(|next, line| *next - *line < ONE);
+    lines
 }
 
 impl WallData {

@@ -60,12 +60,12 @@ mod viewer;
 mod walls;
 
 pub use build::{BUILD, version};
-pub use calculation::{Calculation, TitleBlockPart};
+pub use calculation::{Calculation, ShownMode, TitleBlockPart};
 pub use classes_page::render_classes;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 pub use contact_box::ContactBox;
-pub use damage::{Damage, damage};
+pub use damage::{Damage, damage, footing_name};
 pub use document::render_document;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};

@@ -59,11 +59,7 @@ pub(crate) fn page(page: &Page) -> Markup {
     let without = envelope::without_contact(page);
     let without = without.as_deref();
     let recorded = page.history.len() > 1;
-    let yields = page
-        .model
-        .buildings
-        .iter()
-        .any(|building| building.may_yield());
+    let yields = !hinges::places(page.model).is_empty();
     let script = match page.model.is_in_space() {
         true => flush(&IN_SPACE) + &flush(&SCRIPTS),
         false => flush(&SCRIPTS),
@@ -145,7 +141,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     }
                     (method::section(page.methods))
                     (calculation::source_section(page))
-                    (guide(page))
+                    (guide(yields))
                 }
                 footer {
                     (message::made_by_jostle_version(crate::version()))
@@ -281,7 +277,7 @@ fn icon(class: &str, outline: &str) -> Markup {
     html! { svg class=(class) viewBox="0 0 20 20" aria-hidden="true" { path d=(outline) {} } }
 }
 
-fn guide(page: &Page) -> Markup {
+fn guide(yields: bool) -> Markup {
     html! {
         section #guide {
             h2 { (message::how_to_read()) }
@@ -291,7 +287,7 @@ fn guide(page: &Page) -> Markup {
                 li { (message::contact_forces_are_positive()) }
                 li { (message::total_acceleration_includes_the_ground()) }
                 li { (message::the_input_is_the_work()) }
-                @if page.model.buildings.iter().any(|building| building.may_yield()) {
+                @if yields {
                     li { (message::a_place_has_cracked()) }
                 }
                 li { (message::histories_are_thinned()) }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::Page;
 use crate::damage::strut_stages;
 use crate::devices::{self, side_column};
-use crate::drawn_members::{DiagonalData, MemberData, WallData};
+use crate::drawn_members::{DiagonalData, MemberData, WallData, lines_along};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
 use crate::plan_motion::face_indentation;
@@ -307,7 +307,8 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
         }),
         forces: force_data(page, &time, budget.forces, pack),
         impacts: impacts(page.summary),
-        hysteretic: page.summary.energy.hysteretic_j != 0.0,
+        hysteretic: page.summary.energy.hysteretic_j.abs()
+            > 1e-6 * page.summary.energy.input_j.abs(),
         hinges: hinge_data(page, &places),
         loops: loops(page, &places, &time, budget.loops, pack),
         devices: devices(page, &time, budget.loops, pack),
@@ -458,8 +459,9 @@ fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Out
     let (frame, spans) = match &building.structure {
         Structure::Frame(frame) => (true, frame.spans.clone()),
         Structure::Tiers(tiers) => {
-            let [from, to] = tiers.extent_along();
-            (false, vec![to - from])
+            let lines = lines_along(tiers);
+            let spans = lines.windows(2).map(|pair| pair[1] - pair[0]);
+            (false, spans.collect())
         }
         Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH]),
     };

@@ -177,17 +177,18 @@ fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
     html! {
-        @for building in &page.summary.buildings {
+        @for (index, building) in page.summary.buildings.iter().enumerate() {
             details.peaks.muted[is_outside(building)] {
                 summary { (message::peaks_of_in_numbers(&building.name)) }
                 @if is_outside(building) { p { b { (message::outside_the_model()) } } }
-                (peaks_of(building))
+                (peaks_of(building, page.model.buildings.get(index).map_or(0.0, |building| building.base.elevation)))
             }
         }
     }
 }
 
-fn peaks_of(building: &BuildingSummary) -> Markup {
+/// `elevation`: height of the base above the datum \[m\].
+fn peaks_of(building: &BuildingSummary, elevation: f64) -> Markup {
     let filtered = building.response.filtered_acceleration_peak_m_s2.is_some();
     let compared = building.floors.iter().any(|f| f.without_contact.is_some());
     html! {
@@ -209,7 +210,7 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                     @for floor in building.floors.iter().rev() {
                         tr {
                             th scope="row" { (floor.floor) }
-                            td.number { (format::in_unit(format::HEIGHT, floor.height_m, 2)) }
+                            td.number { (format::in_unit(format::HEIGHT, elevation + floor.height_m, 2)) }
                             @for (quantity, shown) in peaks_shown(building) {
                                 td.number { (peak_cell(quantity, shown, Some(&floor.response))) }
                                 @if compared {
@@ -226,6 +227,7 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
             @if compared { (message::with_and_without_contact()) }
             (message::drift_and_shear_are_those())
             @if filtered { (message::the_filter_of_floor_spectra()) }
+            @if elevation != 0.0 { " " (message::heights_from_the_datum()) }
         }
     }
 }

@@ -4,7 +4,8 @@ use jostle::results::contact_sensitivity::GapSpread;
 use jostle::results::summary::{FloorSummary, GapSummary, MemberSummary, StruckSummary, Summary};
 use maud::{Markup, html};
 
-use crate::damage::{Damage, damage};
+use crate::damage::{Damage, damage, footing_name};
+use crate::devices::isolated;
 use crate::verdict::{closest_approach, nearest, outside, peak_closing, place};
 use crate::{Page, format, message};
 
@@ -29,6 +30,8 @@ pub(crate) fn tiles(page: &Page) -> Markup {
     tiles.extend(fallen(summary));
     tiles.extend(struck_column(summary));
     tiles.extend(damaged(page));
+    tiles.extend(strokes(page));
+    tiles.extend(lifted(summary));
     tiles.extend(impacts(summary));
     tiles.extend(roofs(summary));
     html! {
@@ -305,6 +308,60 @@ fn damaged(page: &Page) -> Vec<Tile> {
     tiles.collect()
 }
 
+/// Displacements of bearings, the greatest over the bounds of their properties where those were run.
+fn strokes(page: &Page) -> Vec<Tile> {
+    let bounds = page.summary.isolation_bounds.as_ref();
+    let tiles = isolated(page).map(|(index, isolation, result)| {
+        let bounded = bounds.and_then(|bounds| bounds.buildings.get(index)?.stroke_m);
+        let nominal = match &result.in_plan {
+            Some(in_plan) => in_plan.stroke_peak_m,
+            None => result.displacement_peak_m(),
+        };
+        let limit = isolation.reach().map(format::millimetres);
+        let limit = limit.map_or_else(String::new, message::bearings_reach);
+        let note = match bounded {
+            Some(_) if limit.is_empty() => message::greatest_over_bounds().to_owned(),
+            Some(_) => format!("{limit}; {}", message::greatest_over_bounds()),
+            None => limit,
+        };
+        let stroke = bounded.map_or(nominal, |bounded| bounded.envelope);
+        let name = &page.summary.buildings[index].name;
+        tile(message::stroke_of(name), format::millimetres(stroke), note)
+    });
+    let tiles: Vec<Tile> = tiles.collect();
+    if tiles.len() <= MOST_EACH {
+        tiles
+    } else {
+        Vec::new()
+    }
+}
+
+/// The footing of each building that rises furthest, and how long it is off the ground.
+fn lifted(summary: &Summary) -> Vec<Tile> {
+    let tiles = summary.buildings.iter().filter_map(|building| {
+        let lifts = building.parts.iter().filter_map(|part| {
+            let share = part.lifted_share.filter(|share| *share > 0.0)?;
+            Some((part, share))
+        });
+        let (part, share) =
+            lifts.max_by(|a, b| a.0.deformation_max.total_cmp(&b.0.deformation_max))?;
+        Some(tile(
+            message::rise_of(footing_name(&part.name)),
+            format::millimetres(part.deformation_max),
+            message::off_the_ground_for(
+                format::percent(share),
+                format::unit(format::fixed(share * summary.motion.duration_s, 1), "s"),
+            ),
+        ))
+    });
+    let tiles: Vec<Tile> = tiles.collect();
+    if tiles.len() <= MOST_EACH {
+        tiles
+    } else {
+        Vec::new()
+    }
+}
+
 /// The hardest impact, and how many there are.
 fn impacts(summary: &Summary) -> Vec<Tile> {
     let count: usize = summary.gaps.iter().map(|gap| gap.impact_count).sum();
@@ -319,12 +376,20 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
         contacts.map(move |contact| (gap, contact))
     });
     let hardest = contacts.max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
-    let force = hardest.map_or(0.0, |(_, contact)| contact.peak_force_n);
+    let bounds = summary.isolation_bounds.as_ref().map(|bounds| {
+        let forces = bounds.gaps.iter().map(|gap| gap.peak_force_n.envelope);
+        forces.fold(0.0, f64::max)
+    });
+    let nominal = hardest.map_or(0.0, |(_, contact)| contact.peak_force_n);
+    let force = bounds.unwrap_or(nominal);
     let first = summary.gaps.iter().filter_map(|gap| gap.first_impact_s);
     let first = first.min_by(f64::total_cmp);
     let mut at = hardest.map_or_else(String::new, |(gap, contact)| place(gap, contact));
     if let Some([least, most]) = force_range(summary) {
         at = message::with_force_range(at, format::force(least), format::force(most));
+    }
+    if bounds.is_some() {
+        at = format!("{at}; {}", message::greatest_over_bounds());
     }
     let mut tiles = vec![
         tile(message::peak_force_title(), format::force(force), at),

@@ -1,12 +1,12 @@
 //! What a calculation document is made from, beside the numbers of a run.
 
 use jostle::eigen::Mode;
+use jostle::system::{BuildingSystem, Direction};
 use jostle::{GroundMotion, Model, System, Wave};
 use jostle_io::TitleBlock;
-use jostle_report::{Calculation, TitleBlockPart};
+use jostle_report::{Calculation, ShownMode, TitleBlockPart};
 use sha2::{Digest, Sha256};
 
-use crate::modes::floor_shape;
 use crate::prepared::Prepared;
 
 /// Mode shapes shown of a building.
@@ -43,27 +43,64 @@ fn title_block(block: &TitleBlock) -> Vec<(TitleBlockPart, &str)> {
     stated
 }
 
-fn shapes(system: &System) -> Vec<Vec<(f64, Vec<f64>)>> {
+fn shapes(system: &System) -> Vec<Vec<ShownMode>> {
     let buildings = system.structures().iter();
     buildings
         .map(|building| {
-            let mat = building
-                .support
-                .map(|support| support.dof - building.offset);
-            let of = |mode: &Mode| (mode.period(), shape_from(mode, mat));
-            building.lateral_modes().take(SHAPES).map(of).collect()
+            let modes = building.lateral_modes().take(SHAPES);
+            modes.map(|mode| shown_mode(building, mode)).collect()
         })
         .collect()
 }
 
-/// Horizontal shape at the mat, if there is one, and at the floors, the floor that moves most by ±1.
-fn shape_from(mode: &Mode, mat: Option<usize>) -> Vec<f64> {
-    let floors = floor_shape(mode);
-    let pairs = floors.iter().zip(&mode.floors);
-    let scale = pairs.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    let scale = scale.map_or(0.0, |(scaled, unscaled)| scaled / unscaled);
-    let mat = mat.map(|dof| scale * mode.shape[dof]);
-    mat.into_iter().chain(floors).collect()
+/// The mode in the direction that carries most of its mass, from what is below the lowest floor up; the greatest is 1.
+fn shown_mode(building: &BuildingSystem, mode: &Mode) -> ShownMode {
+    let shares = [
+        (Direction::Along, mode.effective_mass_ratio_x),
+        (Direction::Across, mode.effective_mass_ratio_across),
+        (Direction::Turning, mode.effective_mass_ratio_torsion),
+    ];
+    let more = |most: (Direction, f64), next: (Direction, f64)| {
+        if next.1 > most.1 { next } else { most }
+    };
+    let (direction, _) = shares.into_iter().fold(shares[0], more);
+    let at = |dof: usize| mode.shape[dof - building.offset];
+    let tracks = building.tracks.iter();
+    let floors = tracks.filter(|track| track.direction == direction);
+    let base = dof_below(building, direction).map_or(0.0, at);
+    let values = std::iter::once(base).chain(floors.map(|track| at(track.dof)));
+    let values: Vec<f64> = values.collect();
+    let greatest = values.iter().fold(0.0, |greatest: f64, value| {
+        if value.abs() > greatest.abs() {
+            *value
+        } else {
+            greatest
+        }
+    });
+    let scale = if greatest == 0.0 { 0.0 } else { 1.0 / greatest };
+    ShownMode {
+        period: mode.period(),
+        direction,
+        shape: values.into_iter().map(|value| scale * value).collect(),
+    }
+}
+
+/// What moves below the lowest floor in a direction: a mat, or a foundation on springs; `None` on the ground.
+fn dof_below(building: &BuildingSystem, direction: Direction) -> Option<usize> {
+    let mat = building.mat_in_plan.as_ref().map(|mat| mat.dofs);
+    match direction {
+        Direction::Along => building
+            .support
+            .map(|support| support.dof)
+            .or(building.foot),
+        Direction::Across => mat.map(|[_, across, _]| across).or_else(|| {
+            let base = building.discretization.stick_model.plan_base?;
+            let across = building.equations.vertical(base.footing)?;
+            Some(across + building.offset)
+        }),
+        Direction::Turning => mat.map(|[.., turning]| turning),
+        Direction::Up => None,
+    }
 }
 
 /// Changes with every number of the model and of the motion, and with the version.

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use jostle::results::summary::BuildingSummary;
 use jostle_io::shown::{ENERGY, FORCE, LENGTH, PRESSURE};
+use jostle_report::footing_name;
 
 /// Foundations and feet of columns that can lift off, one line each.
 pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
@@ -25,7 +26,7 @@ pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fm
         writeln!(
             text,
             "\n{}: rises by up to {}, off the ground {:.1} % of the time; a spring bears up to {}{pressure}{settled}",
-            part.name,
+            footing_name(&part.name),
             LENGTH.text(part.deformation_max, 2),
             100.0 * share,
             FORCE.text(-part.force_min_n, 0)

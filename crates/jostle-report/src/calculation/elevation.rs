@@ -1,8 +1,10 @@
 //! The buildings drawn to scale, with heights, spans and gaps.
 
+use jostle::SpaceFrame;
 use jostle::model::{Building, Structure};
 use maud::{Markup, html};
 
+use crate::drawn_members::{DiagonalData, MemberData};
 use crate::message;
 use crate::static_plot::colour;
 use crate::walls::{SceneWall, stands_on_site, walls};
@@ -122,12 +124,9 @@ pub(super) fn figure(page: &Page) -> Markup {
         figure.static-plot.elevation {
             figcaption { span.chart-title { (dimensions) } }
             svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(dimensions) {
-                line.ground x1="8" x2=(WIDTH - 8.0) y1=(round(ground)) y2=(round(ground)) {}
+                path.ground d=(surface(&outlines, &places, low, [scale, ground])) fill="none" {}
                 @for (index, (outline, left)) in outlines.iter().zip(&places).enumerate() {
                     @let own = ground - scale * outline.foot;
-                    @if outline.foot > 0.0 {
-                        path.ground d=(format!("M{left:.1},{ground:.1}V{own:.1}h{:.1}V{ground:.1}", scale * outline.width())) fill="none" {}
-                    }
                     @if isolated(&model.buildings[index]) {
                         (bearings(index, *left, scale * outline.width(), own))
                     }
@@ -142,6 +141,26 @@ pub(super) fn figure(page: &Page) -> Markup {
             }
         }
     }
+}
+
+/// The surface of the ground: the datum of elevations, down to the foundation below a building that reaches deeper, and as high
+/// as the foundation around one that stands higher.
+fn surface(outlines: &[Outline], places: &[f64], low: f64, [scale, ground]: [f64; 2]) -> String {
+    let street = |outline: &Outline| ground - scale * outline.foot.max(-low);
+    let mut path = String::new();
+    let mut before = None;
+    for (outline, left) in outlines.iter().zip(places) {
+        let right = left + scale * outline.width();
+        let level = street(outline);
+        match before {
+            None => path += &format!("M8,{level:.1}"),
+            Some(end) => path += &format!("H{:.1}V{level:.1}", 0.5 * (end + left)),
+        }
+        let foot = ground - scale * outline.foot;
+        path += &format!("H{left:.1}V{foot:.1}H{right:.1}V{level:.1}");
+        before = Some(right);
+    }
+    path + &format!("H{:.1}", WIDTH - 8.0)
 }
 
 /// A mat on bearings in a pit.
@@ -182,11 +201,12 @@ fn wall_mark(
         (None, Some(right)) => places[right] - FREE - WALL,
         (None, None) => return html! {},
     };
-    let pit = [left, right]
-        .into_iter()
-        .flatten()
-        .any(|index| isolated[index]);
-    let bottom = ground + if pit { PIT } else { 0.0 };
+    let beside = [left, right].into_iter().flatten();
+    let foot = |index: usize| {
+        let pit = if isolated[index] { PIT } else { 0.0 };
+        ground - scale * outlines[index].foot + pit
+    };
+    let bottom = beside.map(foot).fold(f64::NEG_INFINITY, f64::max);
     let top = ground - scale * (wall.top - low) - 5.0;
     html! {
         rect.wall x=(round(from)) y=(round(top)) width=(WALL) height=(round(bottom - top)) {}
@@ -257,10 +277,16 @@ fn drawing(
                     @let [from, to] = outer.map(|line| x(outline.lines[line]));
                     line.beams x1=(round(from)) x2=(round(to)) y1=(round(y(*floor))) y2=(round(y(*floor))) {}
                 }
+            } @else if let Structure::Tiers(tiers) = &building.structure && let Some(frame) = &tiers.space_frame {
+                (in_space(frame, tiers.extent_along()[0], outline, [left, scale, ground]))
             } @else {
                 line.columns x1=(round(middle)) x2=(round(middle)) y1=(round(y(outline.foot))) y2=(round(top)) {}
                 @for floor in &outline.floors { line.slabs x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
             }
+        }
+        @if let Some(foundation) = &building.base.foundation {
+            @let half = 0.5 * scale * foundation.length;
+            rect.footing x=(round(middle - half)) y=(round(y(outline.foot))) width=(round(2.0 * half)) height="5" {}
         }
         text.name x=(round(middle)) y=(round(top - 7.0)) text-anchor="middle" { (building.name) }
         @for (text, at) in &written {
@@ -275,13 +301,54 @@ fn drawing(
     }
 }
 
-/// The width of a gap at the height of its lower building.
+/// A space frame seen across the row: walls, panels, braces, columns and beams of all its frames, one behind the other.
+fn in_space(
+    frame: &SpaceFrame,
+    from: f64,
+    outline: &Outline,
+    [left, scale, ground]: [f64; 3],
+) -> Markup {
+    let x = |across: f64| left + scale * (across - from);
+    let level = |floors: usize| match floors.checked_sub(1) {
+        Some(floor) => outline.floors.get(floor).copied().unwrap_or_default(),
+        None => outline.foot,
+    };
+    let y = |floors: usize| ground - scale * level(floors);
+    let members = MemberData::all_of(frame);
+    let diagonals = frame.diagonals.iter();
+    let diagonals = diagonals.map(|diagonal| DiagonalData::in_space(frame, diagonal));
+    let ends_of = |member: &MemberData| {
+        let floors = member
+            .floors
+            .map(|floor| floor.map_or(0, |floor| floor + 1));
+        [0, 1].map(|end| [x(member.ends[end][0]), y(floors[end])])
+    };
+    html! {
+        @for (member, half) in members.iter().filter_map(|member| Some((member, member.wall?[0].abs()))) {
+            @let [[foot, below], [_, above]] = ends_of(member);
+            // A wall across the row is seen from its end.
+            @let half = (scale * half).max(2.0);
+            rect.shear-wall x=(round(foot - half)) y=(round(above)) width=(round(2.0 * half)) height=(round(below - above)) {}
+        }
+        @for diagonal in diagonals {
+            @if let Some([low, high]) = diagonal.ends {
+                line.infill[diagonal.infill].brace[!diagonal.infill] x1=(round(x(low[0]))) x2=(round(x(high[0]))) y1=(round(y(diagonal.storey - 1))) y2=(round(y(diagonal.storey))) {}
+            }
+        }
+        @for member in members.iter().filter(|member| member.wall.is_none()) {
+            @let [[x1, y1], [x2, y2]] = ends_of(member);
+            line.columns[member.floors[0] != member.floors[1]].beams[member.floors[0] == member.floors[1]] x1=(round(x1)) x2=(round(x2)) y1=(round(y1)) y2=(round(y2)) {}
+        }
+    }
+}
+
 /// Whether both sides of a gap stand in the row of buildings.
 fn in_a_row(model: &jostle::model::Model, gap: &jostle::Gap) -> bool {
     let sides = gap.between.into_iter().flatten();
     !sides.into_iter().any(|side| stands_on_site(model, side))
 }
 
+/// The width of a gap at the height of its lower building.
 fn gap_mark(
     gap: &jostle::Gap,
     outlines: &[Outline],

@@ -3,7 +3,8 @@
 
 mod elevation;
 
-use jostle::{Building, GroundMotion, Wave};
+use jostle::system::Direction;
+use jostle::{Building, GroundMotion, Structure, Wave};
 use jostle_motion::{Accelerogram, Reading, TargetSpectrum, response_spectrum, spaced_periods};
 use maud::{Markup, html};
 
@@ -13,9 +14,8 @@ use crate::{Page, format, message};
 /// What a calculation document shows beyond the numbers of a run.
 #[derive(Clone, Debug)]
 pub struct Calculation<'a> {
-    /// First lateral modes of every building: period \[s\] and horizontal shape at the floors, the greatest ±1; of an
-    /// isolated building at its mat before them.
-    pub shapes: Vec<Vec<(f64, Vec<f64>)>>,
+    /// First lateral modes of every building.
+    pub shapes: Vec<Vec<ShownMode>>,
     /// Design spectrum that the motion is scaled to, and its damping ratio.
     pub target: Option<(&'a TargetSpectrum, f64)>,
     /// Names and values of the title block: project, client, author, date, as far as the file has them.
@@ -26,6 +26,17 @@ pub struct Calculation<'a> {
     pub input_hash: String,
     /// SHA-256 of the model and the motion as they were run, options of the command line included.
     pub run_hash: String,
+}
+
+/// A mode of a building as it is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownMode {
+    /// Period \[s\].
+    pub period: f64,
+    /// Direction that carries most of its mass.
+    pub direction: Direction,
+    /// Displacement in this direction, or rotation, at the base and at the floors, over the greatest \[–\].
+    pub shape: Vec<f64>,
 }
 
 /// What an entry of the title block is.
@@ -185,28 +196,40 @@ pub(crate) fn model_figures(page: &Page) -> Markup {
     }
 }
 
-fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
-    let heights = building.floor_heights();
-    // A mat moves, and is the first of the shape; so does a foundation, which is not; the ground does not.
-    let isolated = building.base.isolation.is_some();
-    let stands = !isolated && building.base.foundation.is_none();
-    let (ground, mat) = (stands.then_some([0.0; 2]), isolated.then_some(0.0));
-    let lines = shapes.iter().enumerate().map(|(index, (period, shape))| {
-        let levels = mat.into_iter().chain(heights.iter().copied());
-        let floors = shape
-            .iter()
-            .zip(levels)
-            .map(|(x, y)| [*x, format::HEIGHT.of(y)]);
+fn shape_plot(building: &Building, shapes: &[ShownMode]) -> Plot {
+    let levels: Vec<f64> = std::iter::once(building.base.elevation)
+        .chain(building.floor_levels())
+        .collect();
+    let in_plan = matches!(building.structure, Structure::Tiers(_));
+    let lines = shapes.iter().enumerate().map(|(index, mode)| {
+        let points = mode.shape.iter().zip(&levels);
+        let period = format!("T{} = {} s", index + 1, format::fixed(mode.period, 3));
+        let direction = match mode.direction {
+            Direction::Along => message::along_x(),
+            Direction::Across => message::along_y(),
+            Direction::Turning => message::torsion(),
+            Direction::Up => message::vertical(),
+        };
         Line {
-            name: format!("T{} = {} s", index + 1, format::fixed(*period, 3)),
-            points: ground.into_iter().chain(floors).collect(),
+            name: if in_plan {
+                format!("{period}, {}", direction.to_lowercase())
+            } else {
+                period
+            },
+            points: points.map(|(x, y)| [*x, format::HEIGHT.of(*y)]).collect(),
             colour: index,
             dashed: index == 2,
         }
     });
     Plot {
         title: format!("{}, {}", message::lateral_mode_shapes(), building.name),
-        x_label: message::horizontal_displacement_greatest_1().into(),
+        x_label: match shapes
+            .iter()
+            .any(|mode| mode.direction == Direction::Turning)
+        {
+            true => message::displacement_or_rotation_greatest_1().into(),
+            false => message::horizontal_displacement_greatest_1().into(),
+        },
         y_label: format!("{} {}", message::height(), format::HEIGHT.bracketed()),
         logarithmic: false,
         aspect: 0.56,

@@ -10,7 +10,9 @@ messages! {
     hinges_of_columns = "Hinges of columns";
     hinges_of_beams = "Hinges of beams";
     storeys_title = "Storeys";
+    heights_from_the_datum = "Heights are measured from the datum of elevations.";
     along_x = "Along x";
+    along_y = "Along y";
     across_title = "Across";
     base_rocking = "Base, rocking";
     base_sliding = "Base, sliding";
@@ -58,6 +60,13 @@ messages! {
     struts_cracked = "infill struts cracked";
     crushed_of_struts(count) = "{count} reached their strength";
     damage_first_at(instant) = ", first at {instant} s";
+    footing_of(building) = "footing of {building}";
+    footing_of_line(line, building) = "footing {line} of {building}";
+    rise_of(footing) = "Rise of the {footing}";
+    off_the_ground_for(share, seconds) = "off the ground {share} of the time, {seconds}";
+    stroke_of(name) = "Displacement of bearings, {name}";
+    bearings_reach(limit) = "capacity {limit}";
+    greatest_over_bounds = "greatest over nominal and bounds";
 
     // collisions
     time_ms = "time [ms]";
@@ -1008,6 +1017,7 @@ messages! {
     time = "time";
     lateral_mode_shapes = "Lateral mode shapes";
     horizontal_displacement_greatest_1 = "horizontal displacement, greatest 1 [–]";
+    displacement_or_rotation_greatest_1 = "displacement or rotation, greatest 1 [–]";
     elevation_to_scale_dimensions(unit) = "Elevation to scale, dimensions in {unit}";
     in_metres = "metres";
     in_feet = "feet";

@@ -3,7 +3,9 @@
 mod chart;
 mod demand;
 mod shapes;
+mod space_shapes;
 
+use jostle::Building;
 use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding, Pushover};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -25,11 +27,13 @@ const SCRIPTS: [&str; 3] = [
 const NAMED: usize = 6;
 
 /// The whole page of capacity curves, beside the demand of a ground motion if there is one; it loads nothing from outside.
+/// `models` has the geometry of the space frames among them, found by name; others need none.
 #[must_use]
 pub fn render_pushover(
     title: &str,
     pushed: &[PushedBuilding],
     demand: Option<&Demand<'_>>,
+    models: &[Building],
 ) -> String {
     let charts: Vec<Chart> = pushed.iter().map(Chart::new).collect();
     let headline: Vec<String> = pushed.iter().map(verdict).collect();
@@ -65,7 +69,7 @@ pub fn render_pushover(
                     (message::made_by_jostle_version(crate::version()))
                 }
                 noscript { p.note { (message::the_deformed_shapes_need_javascript()) } }
-                script #page-data type="application/json" { (PreEscaped(shapes::payload(pushed, &charts))) }
+                script #page-data type="application/json" { (PreEscaped(shapes::payload(pushed, &charts, models))) }
                 (message::for_scripts(&script))
                 script type="module" { (PreEscaped(script)) }
             }

@@ -3,46 +3,69 @@
 use std::collections::BTreeMap;
 
 use jostle::hysteresis::Stage;
+use jostle::model::{Building, Structure};
 use jostle::pushover::{PushEventKind, PushedBuilding, Pushover};
 use jostle::structure::{MemberEnd, SpringPlace, StickModel};
 use serde_json::{Value, json};
 
 use super::chart::Chart;
+use super::space_shapes::SpaceShape;
 use crate::encode::Packed;
 
 /// Numbers of a curve spent on shapes at most.
 const BUDGET: usize = 60_000;
 
 /// Everything the script needs, as JSON that may stand in a page.
-pub(super) fn payload(pushed: &[PushedBuilding], charts: &[Chart]) -> String {
+pub(super) fn payload(pushed: &[PushedBuilding], charts: &[Chart], models: &[Building]) -> String {
     let buildings = pushed.iter().zip(charts);
-    let all: Vec<Value> = buildings.map(|(one, chart)| building(one, chart)).collect();
+    let model = |one: &PushedBuilding| {
+        let mut models = models.iter();
+        models.find(|model| model.name == one.building.name)
+    };
+    let all = buildings.map(|(one, chart)| building(one, chart, model(one)));
+    let all: Vec<Value> = all.collect();
     // "</script>" in a name must not end the script.
     Value::from(all).to_string().replace('<', "\\u003c")
 }
 
-fn building(one: &PushedBuilding, chart: &Chart) -> Value {
+fn building(one: &PushedBuilding, chart: &Chart, model: Option<&Building>) -> Value {
     let system = one.building;
     let stick_model = &system.discretization.stick_model;
-    let x_of_nodes = side_by_side(stick_model);
-    let y_of_nodes = stick_model.nodes.iter().map(|node| node.y);
+    let in_space = model.and_then(|model| match &model.structure {
+        Structure::Tiers(tiers) => SpaceShape::new(tiers, system),
+        _ => None,
+    });
+    let [x_of_nodes, y_of_nodes] = match &in_space {
+        Some(shape) => shape.nodes(),
+        None => [
+            side_by_side(stick_model),
+            stick_model.nodes.iter().map(|node| node.y).collect(),
+        ],
+    };
     let width = x_of_nodes.iter().copied().fold(0.0, f64::max);
     let height = system.floors.last().map_or(1.0, |floor| floor.height);
     let members = stick_model.members.iter().map(|member| member.ends);
     let springs = stick_model.springs.iter().map(|spring| spring.ends);
+    let lines = match &in_space {
+        Some(shape) => shape.lines(),
+        None => members.chain(springs).collect(),
+    };
     let [roof, shear] = chart.scales();
     json!({
         "name": system.name,
-        "nodes": { "x": x_of_nodes, "y": y_of_nodes.collect::<Vec<_>>() },
-        "lines": members.chain(springs).collect::<Vec<_>>(),
-        "slab": if stick_model.members.is_empty() { 0.12 * height } else { 0.0 },
-        "floors": system.discretization.floors,
-        "hinges": hinges(one),
+        "nodes": { "x": x_of_nodes, "y": y_of_nodes },
+        "lines": lines,
+        "slab": if in_space.is_none() && stick_model.members.is_empty() { 0.12 * height } else { 0.0 },
+        "floors": match in_space {
+            Some(_) => (0..system.floors.len()).collect(),
+            None => system.discretization.floors.clone(),
+        },
+        "hinges": in_space.as_ref().map_or_else(|| hinges(one), SpaceShape::hinges),
         "width": width,
         "height": height,
         "drift": one.curves.iter().map(|curve| curve.settings.drift).fold(1e-4, f64::max),
         "chart": { "left": roof.at(0.0), "bottom": shear.at(0.0), "x": roof.per_unit(), "y": -shear.per_unit() },
-        "curves": one.curves.iter().map(|curve| self::curve(one, curve)).collect::<Vec<_>>(),
+        "curves": one.curves.iter().map(|curve| self::curve(one, curve, in_space.as_ref())).collect::<Vec<_>>(),
     })
 }
 
@@ -125,10 +148,11 @@ fn hinges(one: &PushedBuilding) -> Vec<Value> {
         .collect()
 }
 
-fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
+fn curve(one: &PushedBuilding, curve: &Pushover, in_space: Option<&SpaceShape>) -> Value {
     let system = one.building;
     let nodes = system.discretization.stick_model.nodes.len();
-    let kept = kept(curve, (BUDGET / (2 * nodes).max(1)).max(12));
+    let drawn = in_space.map_or(nodes, SpaceShape::count);
+    let kept = kept(curve, (BUDGET / (2 * drawn).max(1)).max(12));
     let places = (0..nodes).flat_map(|node| {
         [
             system.equations.horizontal(node),
@@ -137,10 +161,12 @@ fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
     });
     let places: Vec<Option<usize>> = places.collect();
     let shapes = kept.iter().flat_map(|&point| {
-        let displacement = &curve.points[point].displacement;
-        places
-            .iter()
-            .map(move |dof| dof.map_or(0.0, |dof| displacement[dof]))
+        let point = &curve.points[point];
+        let of_node = |dof: &Option<usize>| dof.map_or(0.0, |dof| point.displacement[dof]);
+        match in_space {
+            Some(shape) => shape.displacements(point),
+            None => places.iter().map(of_node).collect::<Vec<f64>>(),
+        }
     });
     let mut stages = vec![[None::<f64>; 2]; system.equations.springs.len()];
     for point in &curve.points {

@@ -73,7 +73,7 @@ pub(crate) fn pushed(building: &BuildingSystem) -> PushedBuilding<'_> {
 #[test]
 fn the_page_escapes_names_and_loads_nothing() {
     let building = frame("</script><b>J&1");
-    let text = render_pushover("<i>title", &[pushed(&building)], None);
+    let text = render_pushover("<i>title", &[pushed(&building)], None, &[]);
     assert!(!text.contains("<b>J&1") && !text.contains("<i>title"));
     assert_eq!(
         text.matches("</script>").count(),
@@ -139,7 +139,12 @@ fn demand_stands_beside_capacity() {
             motion: &motion,
             damping: 0.05,
         };
-        render_pushover("two storeys", std::slice::from_ref(&pushed), Some(&demand))
+        render_pushover(
+            "two storeys",
+            std::slice::from_ref(&pushed),
+            Some(&demand),
+            &[],
+        )
     };
     let weak = page(1e-3);
     assert!(weak.contains("Capacity and demand") && weak.contains("a &lt;wave&gt;"));

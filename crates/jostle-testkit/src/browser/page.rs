@@ -255,8 +255,12 @@ impl Page {
         self.connection().complaints.clone()
     }
 
-    /// Nothing was complained about, and no two elements have one name, which would give one the other's clip or label.
+    /// Nothing was complained about, every attribute of a drawing has numbers, and no two elements have one name, which would
+    /// give one the other's clip or label.
     pub fn assert_content(&self) {
+        let without_number = "[...document.querySelectorAll('svg, svg *')].flatMap((e) => [...e.attributes].filter((a) => \
+            /NaN|undefined|Infinity/.test(a.value)).map((a) => `${e.tagName} ${a.name}=${a.value.slice(0, 80)}`)).join('; ')";
+        assert_eq!(self.text(without_number), "", "a drawing has no number");
         let twice = "(() => { const ids = [...document.querySelectorAll('[id]')].map((e) => e.id); \
             return ids.filter((id, at) => ids.indexOf(id) < at).join(); })()";
         assert_eq!(self.text(twice), "", "names stand twice on the page");

@@ -9,7 +9,7 @@ use crate::pushover::{frame, pushed};
 fn hinges_change_colour_along_the_push() {
     let building = frame("J1");
     let pushed = pushed(&building);
-    let text = render_pushover("two storeys", std::slice::from_ref(&pushed), None);
+    let text = render_pushover("two storeys", std::slice::from_ref(&pushed), None, &[]);
     let Some(page) = open_page(&text, 1100, 900) else {
         return;
     };
