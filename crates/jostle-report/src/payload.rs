@@ -450,7 +450,9 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
 fn outlines<'a>(page: &Page<'a>) -> Vec<Outline<'a>> {
     let buildings = page.model.buildings.iter().enumerate();
     let summary = |index: usize| page.summary.buildings.get(index);
-    buildings.map(|(index, building)| outline(building, summary(index))).collect()
+    buildings
+        .map(|(index, building)| outline(building, summary(index)))
+        .collect()
 }
 
 fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Outline<'a> {

@@ -165,7 +165,7 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
         let settings = prepared.settings(true);
         prepared.check_histories(settings, true, Some("jostle run --force runs it anyway"))?;
         let expected = prepared.expect(settings, true);
-        let seconds = prepared.expected_seconds(settings);
+        let seconds = prepared.expected_seconds(settings, true);
         let _ = writeln!(text, "  {}\n", expected.text(seconds));
         work = Some(ExpectedWork {
             solver: plan.solver.name(),

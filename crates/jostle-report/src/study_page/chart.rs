@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
-use crate::{format, message};
 use crate::scale::{Scale, name_upwards};
+use crate::{format, message};
 
 /// Lines over an axis.
 #[derive(Clone, Debug, PartialEq)]

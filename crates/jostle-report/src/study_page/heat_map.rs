@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
-use crate::{format, message};
 use crate::scale::Scale;
+use crate::{format, message};
 
 /// A quantity over two others.
 #[derive(Clone, Debug, PartialEq)]
