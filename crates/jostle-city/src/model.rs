@@ -136,7 +136,9 @@ impl City {
 
 /// A name that ends no text of TOML.
 fn plain(name: &str) -> String {
-    name.chars().filter(|c| !c.is_control() && !matches!(c, '"' | '\\')).collect()
+    name.chars()
+        .filter(|c| !c.is_control() && !matches!(c, '"' | '\\'))
+        .collect()
 }
 
 /// A record, and how it is read.

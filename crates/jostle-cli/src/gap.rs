@@ -317,7 +317,10 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
         text += &inputs(gap);
     }
     let mut pairs = found.iter().map(|gap| &gap.between);
-    if pairs.next().is_some_and(|first| pairs.any(|pair| pair != first)) {
+    if pairs
+        .next()
+        .is_some_and(|first| pairs.any(|pair| pair != first))
+    {
         text += "\nEach gap is searched while the others are out of reach: impacts at other gaps can make it close by more.\n";
     }
     let mut fewest = usize::MAX;

@@ -31,15 +31,22 @@ pub(crate) fn in_json(remedy: &str) -> String {
 }
 
 fn is_key(word: &str) -> bool {
-    !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_')
+    !word.is_empty()
+        && word
+            .bytes()
+            .all(|byte| byte.is_ascii_lowercase() || byte == b'_')
 }
 
 /// `[[gap]]` and `[motion]` as keys.
 fn table(word: &str) -> String {
     let close = word.rfind(']').map_or(0, |at| at + 1);
     let (name, after) = word.split_at(close);
-    let list = name.strip_prefix("[[").and_then(|name| name.strip_suffix("]]"));
-    let single = name.strip_prefix('[').and_then(|name| name.strip_suffix(']'));
+    let list = name
+        .strip_prefix("[[")
+        .and_then(|name| name.strip_suffix("]]"));
+    let single = name
+        .strip_prefix('[')
+        .and_then(|name| name.strip_suffix(']'));
     match (list, single) {
         (Some(name), _) if is_key(name) => format!("\"{name}\": [{{ … }}]{after}"),
         (None, Some(name)) if is_key(name) => format!("\"{name}\"{after}"),
@@ -59,12 +66,18 @@ mod tests {
                 "add a \"building\": [{ … }]; \"jostle new\" writes a commented example",
             ),
             ("add width = \"100 mm\"", "add \"width\": \"100 mm\""),
-            ("accept_unusual = true under [analysis], or", "\"accept_unusual\": true under \"analysis\", or"),
+            (
+                "accept_unusual = true under [analysis], or",
+                "\"accept_unusual\": true under \"analysis\", or",
+            ),
             (
                 "write [[gap]] with double brackets; in JSON \"gap\": [{ … }]",
                 "write \"gap\": [{ … }]",
             ),
-            ("write \"f'c = 4 ksi\", or a [1, 3]", "write \"f'c = 4 ksi\", or a [1, 3]"),
+            (
+                "write \"f'c = 4 ksi\", or a [1, 3]",
+                "write \"f'c = 4 ksi\", or a [1, 3]",
+            ),
         ] {
             assert_eq!(in_json(toml), json);
         }

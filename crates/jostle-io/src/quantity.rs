@@ -230,7 +230,10 @@ fn hint(expected: Dimension, found: &str) -> String {
     if expected.is_mass_like() && unit.trim().starts_with('g') {
         return "; g is the acceleration of gravity, write kg or t".to_owned();
     }
-    let per_area = unit.trim().strip_suffix("/m2").or(unit.trim().strip_suffix("/m²"));
+    let per_area = unit
+        .trim()
+        .strip_suffix("/m2")
+        .or(unit.trim().strip_suffix("/m²"));
     match per_area.filter(|_| expected == Dimension::LineMass) {
         Some(load) => format!(
             "; multiply by the tributary width: \"{} {load}/m\" for a strip of 6 m",

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use crate::fault::{Fault, InputError};
 use crate::grade::{ConcreteGrade, cylinder_strength};
+use crate::json_remedies::in_json;
 use crate::keys::{Section, keys_of, range_of};
 use crate::nearest::nearest;
-use crate::json_remedies::in_json;
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten, show_number};
 use crate::source::{Source, Span};
 use crate::tree::{Format, Node, Table, Value};

@@ -449,7 +449,9 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
 fn outlines<'a>(page: &Page<'a>) -> Vec<Outline<'a>> {
     let buildings = page.model.buildings.iter();
     let buildings = buildings.zip(&page.summary.buildings);
-    buildings.map(|(building, summary)| outline(building, summary)).collect()
+    buildings
+        .map(|(building, summary)| outline(building, summary))
+        .collect()
 }
 
 fn outline<'a>(building: &'a Building, summary: &BuildingSummary) -> Outline<'a> {

@@ -41,13 +41,20 @@ pub fn export_script(opened: &Opened) -> Result<Exported, RunError> {
         motion: &motion,
     });
     Ok(exported.map_err(|mut faults| {
-        for fault in faults.iter_mut().filter(|fault| fault.path.ends_with(".infill")) {
+        for fault in faults
+            .iter_mut()
+            .filter(|fault| fault.path.ends_with(".infill"))
+        {
             // The corners of struts follow from other keys as well.
             let keys = ["strength", "force"].into_iter();
             let mut stated = keys.filter(|key| opened.input.states_in_list(&fault.path, key));
             if let Some(key) = stated.next() {
-                fault.problem = fault.problem.replace("with a hinge", &format!("with a {key}"));
-                fault.problem = fault.problem.replace("leave out hinge", &format!("leave out {key}"));
+                fault.problem = fault
+                    .problem
+                    .replace("with a hinge", &format!("with a {key}"));
+                fault.problem = fault
+                    .problem
+                    .replace("leave out hinge", &format!("leave out {key}"));
             }
         }
         opened.input.faults(faults)

@@ -2,8 +2,8 @@
 
 use jostle::interface::narrowest_gap;
 use jostle::{
-    Building, ContactLaw, FloorPairs, Gap, Level, Model, PlanContact, PlanPoint, RestitutionIs, Structure,
-    Wall,
+    Building, ContactLaw, FloorPairs, Gap, Level, Model, PlanContact, PlanPoint, RestitutionIs,
+    Structure, Wall,
 };
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
@@ -239,10 +239,7 @@ fn widths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
         );
         return None;
     }
-    let widths: Vec<_> = entries
-        .iter()
-        .map(|entry| width(reader, entry))
-        .collect();
+    let widths: Vec<_> = entries.iter().map(|entry| width(reader, entry)).collect();
     widths.into_iter().collect()
 }
 
@@ -288,7 +285,10 @@ fn joins_the_same(a: &Gap, b: &Gap, model: &Model) -> bool {
         building.map(Building::floor_levels).unwrap_or_default()
     });
     let height = |side: usize, level: &Level| match level {
-        Level::Floor(floor) => floor.checked_sub(1).and_then(|at| levels[side].get(at)).copied(),
+        Level::Floor(floor) => floor
+            .checked_sub(1)
+            .and_then(|at| levels[side].get(at))
+            .copied(),
         Level::Height(height) => Some(*height),
         Level::Wall => None,
     };

@@ -37,7 +37,8 @@ impl Input {
             Value::Text(text) => text.trim().parse().ok()?,
             _ => return None,
         };
-        let meant = written == pga && pga < 1.0 && motion.scale.abs() <= WEAK && !self.accepts(PATH);
+        let meant =
+            written == pga && pga < 1.0 && motion.scale.abs() <= WEAK && !self.accepts(PATH);
         let is_record = matches!(motion.wave, Wave::Sampled { .. });
         (meant && is_record).then(|| {
             format!(

@@ -26,7 +26,11 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
             let before = text.get(..span.start).unwrap_or_default();
             let line = before.rsplit('\n').next().unwrap_or_default();
             let after = text.get(span.start..).unwrap_or_default();
-            let quoted = after.lines().next().unwrap_or_default().contains(TYPOGRAPHIC);
+            let quoted = after
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .contains(TYPOGRAPHIC);
             let problem = match quoted {
                 true => "typographic quotation marks: use straight ones, as in \"Left\"".to_owned(),
                 false => problem(error.message(), line.trim_start().starts_with("[[")),

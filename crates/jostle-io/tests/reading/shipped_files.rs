@@ -214,7 +214,9 @@ fn templates_in_us_units_have_no_other_units() {
                 "mm", "m", "mm²", "m²", "t", "kN", "MN", "kN/m", "MN/m", "N/m", "MPa", "GPa",
             ];
             of_si.contains(&unit)
-                || ["N/m^1.5", "m/s", "cm/s2", "kg/"].iter().any(|si| unit.starts_with(si))
+                || ["N/m^1.5", "m/s", "cm/s2", "kg/"]
+                    .iter()
+                    .any(|si| unit.starts_with(si))
                 || matches!(unit.as_bytes(), [b'C' | b'd', rest @ ..]
                     if !rest.is_empty() && rest.iter().all(u8::is_ascii_digit))
         });

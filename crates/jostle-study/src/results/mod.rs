@@ -18,7 +18,8 @@ use std::path::Path;
 
 use jostle_io::shown::{FORCE, by_model};
 use jostle_io::{
-    Factor, FactorValues, STANDARD_GRAVITY, Values, csv_field, write_atomically, write_values_parquet,
+    Factor, FactorValues, STANDARD_GRAVITY, Values, csv_field, write_atomically,
+    write_values_parquet,
 };
 use jostle_report::message;
 use jostle_report::{Axis, Section, StudyPage, render_study};

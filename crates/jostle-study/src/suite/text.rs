@@ -98,7 +98,9 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
     let gaps = gaps.flat_map(|record| list(&record.summary, "gaps"));
     let pairs: Vec<(String, String)> = gaps
         .map(|gap| {
-            let names: Vec<&str> = list(gap, "between").filter_map(|name| name.as_str()).collect();
+            let names: Vec<&str> = list(gap, "between")
+                .filter_map(|name| name.as_str())
+                .collect();
             (names.join("-"), names.join(" ↔ "))
         })
         .collect();

@@ -131,7 +131,7 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
         let beyond = parts.filter_map(|part| Some((ratio(part)?, &part.name)));
         let worst = beyond.max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(format!(
-            "infill panels of \"{}\" can fall out of their plane: {} needs {:.2} times what it bears; the model keeps its struts all the same",
+            "infill panels of \"{}\" can fail out of plane: {} needs {:.2} times its strength; the model keeps its struts",
             building.name, worst.1, worst.0
         ))
     };

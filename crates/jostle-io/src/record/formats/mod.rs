@@ -207,9 +207,10 @@ const WRAPPED: &[(&[u8], &str, &str)] = &[
 /// Whether a text begins as web pages do.
 fn is_page(bytes: &[u8]) -> bool {
     let text = bytes.trim_ascii_start();
-    ["<!doctype html", "<html"]
-        .iter()
-        .any(|mark| text.get(..mark.len()).is_some_and(|start| start.eq_ignore_ascii_case(mark.as_bytes())))
+    ["<!doctype html", "<html"].iter().any(|mark| {
+        text.get(..mark.len())
+            .is_some_and(|start| start.eq_ignore_ascii_case(mark.as_bytes()))
+    })
 }
 
 /// Refuses what cannot be read as text.
