@@ -407,13 +407,13 @@ impl City {
                 div.note {
                     p { b { "No building's fate. " } "These are probabilities over draws: they say which kinds of neighbours deserve a look, not what will happen to one of them." }
                     p { "Known from the inventory: outlines, and storeys, height, year and type where it has them; " (mended)
-                        " rows were mended, left out or assumed, all listed in mended.csv." }
+                        " rows were repaired, left out or assumed, all listed in mended.csv." }
                     p { "Drawn: gaps, lognormal with a median of " (median) " and a scatter of "
-                        (self.file.gap_scatter) " (" (gaps) "); stiffness, strength, damping and contact stiffness. Maps say who stands beside whom, not how far apart." }
+                        (self.file.gap_scatter) " (" (gaps) "); stiffness, strength, damping and contact stiffness. Maps show which buildings are adjacent, not their gaps." }
                     @if !differs.is_empty() {
                         p { "The shaking differs from place to place. " (differs.join(". ")) "." }
                     }
-                    p { "Buildings are shear buildings of their class: capacities of " (capacities) ", damage drifts of " (drifts) ". Slabs in line and slabs against columns are followed; walls that fall out of their plane, "
+                    p { "Buildings are shear buildings of their class: capacities of " (capacities) ", damage drifts of " (drifts) ". Slabs in line and slabs against columns are followed; out-of-plane failure of walls, "
                         "torsion and the failure of a struck column are not. Where neighbours hit, the drift with contact over that alone is " (format!("{middle:.2}"))
                         " in the median and " (format!("{high:.2}")) " in the 95 % quantile." }
                     p { "Blocks are cut into rows of at most 32 buildings in a line at their widest gaps; " (percent(answers.in_rows))

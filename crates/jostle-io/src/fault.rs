@@ -50,6 +50,7 @@ impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let [fault] = &self.faults[..]
             && fault.place.is_none()
+            && fault.path.is_empty()
             && self.more == 0
         {
             // The file as a whole.

@@ -76,7 +76,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Infill,
         "`[[building.infill]]`",
-        "A panel is two struts between opposite joints that bear compression alone. Without hinge they stay elastic: compare their greatest force with what the panel bears. Modes and damping ratios count both with half their stiffness, since one of two acts.",
+        "A panel is two compression-only struts between opposite joints. Without hinge they stay elastic: compare their greatest force with the strength of the panel. Modes and damping ratios count both with half their stiffness, since one of two acts.",
     ),
     (
         Section::InfillStrength,

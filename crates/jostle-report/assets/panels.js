@@ -16,7 +16,7 @@ function sideName(gap, side) {
 
 function contactName(contact) {
   const [left, right] = [0, 1].map((side) => sideName(contact.gap, side));
-  return page.gaps.length > 1 ? `${left}–${right}, ${contact.label}` : contact.label;
+  return page.gaps.length > 1 ? `${left} ↔ ${right}, ${contact.label}` : contact.label;
 }
 
 function groundChart() {

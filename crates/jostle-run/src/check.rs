@@ -541,7 +541,7 @@ fn describe(
         let pair = if link.is_inside() {
             left.to_owned()
         } else {
-            format!("{left} — {right}")
+            format!("{left} ↔ {right}")
         };
         let law = match link.law {
             LinkLaw::Linear => String::new(),

@@ -685,6 +685,31 @@ mod tests {
         );
     }
 
+    /// Widths of codes are for the motion in full: none is compared with the gap of a reduced one.
+    #[test]
+    fn a_reduced_motion_has_no_ratios_of_codes() {
+        let (input, motion) = of_six_seconds();
+        let mut settings = GapSettings::default();
+        settings.codes.motion = MotionLevel::Reduced;
+        let factor = jostle::separation::BuildingCodes {
+            behaviour_factor: Some(3.0),
+            ..Default::default()
+        };
+        settings.codes.buildings = vec![factor; 2];
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false);
+        let found = found.unwrap_or_else(|error| panic!("{error}")).remove(0);
+        assert!(found.motion_is_reduced);
+        assert!(found.rules.iter().any(|rule| rule.code == Some("en1998")));
+        for rule in &found.rules {
+            let compared = [
+                rule.ratio.is_some(),
+                rule.ratio_of_both_signs.is_some(),
+                rule.worse_outcome().is_some(),
+            ];
+            assert_eq!(compared, [rule.code.is_none(); 3], "{}", rule.rule);
+        }
+    }
+
     /// A mat and a wall that give way both move: the gap is found at height 0.
     #[test]
     fn a_moat_has_a_smallest_gap() {

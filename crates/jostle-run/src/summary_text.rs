@@ -888,7 +888,7 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     let pair = if left == right {
         left.clone()
     } else {
-        format!("{left} — {right}")
+        format!("{left} ↔ {right}")
     };
     let law = match link.law.as_str() {
         "linear" => String::new(),

@@ -507,7 +507,7 @@ fn walls_widths_and_links_are_described_and_computed() {
         "wall ↔ A",
         "gap 15.0 mm, 1 contact at 6.00 m",
         "colliding masses at the top a rigid wall and 90.0 t",
-        "A — B",
+        "A ↔ B",
         "1 link at 6.00 m with 2 MN/m and 600 kN·s/m",
     ] {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
@@ -517,7 +517,7 @@ fn walls_widths_and_links_are_described_and_computed() {
     let text = printed(&output);
     for part in [
         "wall ↔ A, 15.0 mm apart",
-        "A — B, 1 link: peak ",
+        "A ↔ B, 1 link: peak ",
         "kJ dissipated",
     ] {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");

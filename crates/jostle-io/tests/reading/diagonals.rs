@@ -112,11 +112,11 @@ fn mistakes_are_explained() {
         ),
         (
             "[[building.brace]]\nEA = \"1 GN\"\nbay = 3\n",
-            "must rise and lie between 1 and 2, found 3 to 3",
+            "must be ascending, within 1 to 2, found 3 to 3",
         ),
         (
             "[[building.brace]]\nEA = \"1 GN\"\nstoreys = [3, 4]\n",
-            "must rise and lie between 1 and 3, found 3 to 4",
+            "must be ascending, within 1 to 3, found 3 to 4",
         ),
         (
             "[[building.brace]]\nEA = \"-1 GN\"\n",

@@ -518,7 +518,7 @@ fn motion_faults_are_explained() {
 
     let input = read(&motion("record = \"el-zentro-1940-ns\""), Format::Toml)
         .unwrap_or_else(|error| panic!("{error}"));
-    let wanted = r#"model.toml:9:10: motion.record: there is no record "el-zentro-1940-ns" (did you mean "el-centro-1940-ns"?); built-in records: el-centro-1940-ns, nanjing-artificial
+    let wanted = r#"model.toml:9:10: motion.record: there is no record "el-zentro-1940-ns" in the current folder (did you mean "el-centro-1940-ns"?); built-in records: el-centro-1940-ns, nanjing-artificial
   9 | record = "el-zentro-1940-ns"
     |          ^^^^^^^^^^^^^^^^^^^
 

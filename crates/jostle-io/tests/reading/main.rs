@@ -27,6 +27,7 @@ mod plain_files;
 mod plans;
 mod profiles_and_slabs;
 mod records;
+mod remedies;
 mod rotation_limits;
 mod scan;
 mod shear_failure;

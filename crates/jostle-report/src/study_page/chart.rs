@@ -222,3 +222,44 @@ pub(super) fn figure(chart: &Chart) -> Markup {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_dots_do_not_cover_each_other() {
+        let dot = |at: usize| Series {
+            name: format!("GB 50011, intensity {at}"),
+            points: vec![[100.0 + at as f64, 50.0 - 0.1 * at as f64]],
+            band: Vec::new(),
+            stroke: Stroke::Dots,
+            colour: 0,
+        };
+        let axis = || Axis {
+            name: String::new(),
+            unit: String::new(),
+        };
+        let chart = Chart {
+            title: String::new(),
+            x: axis(),
+            y: axis(),
+            series: (0..8).map(dot).collect(),
+            levels: Vec::new(),
+            reach: 0.0,
+            ordered: false,
+        };
+        let names = dot_names(&chart, &|x| LEFT + 2.0 * x, &|y| HEIGHT - BOTTOM - 4.0 * y);
+        assert_eq!(names.len(), 8);
+        for (index, one) in names.iter().enumerate() {
+            assert!((TOP..HEIGHT - BOTTOM).contains(&one.at[1]), "{}", one.name);
+            for other in &names[..index] {
+                assert!(
+                    (one.at[1] - other.at[1]).abs() >= LINE - 1e-9,
+                    "{}",
+                    one.name
+                );
+            }
+        }
+    }
+}

@@ -221,6 +221,21 @@ fn rect(
 mod tests {
     use super::*;
 
+    /// 0.1 to 0.5 g in 60 steps: not every value has room, and every fifth would be 0.134, 0.168 …
+    #[test]
+    fn many_values_get_round_numbers() {
+        let values: Vec<f64> = (0..60).map(|i| 0.1 + 0.4 * f64::from(i) / 59.0).collect();
+        let spacing = Spacing::new(&values, 400.0);
+        let ticks = spacing.ticks(&values, 30.0);
+        let texts: Vec<&str> = ticks.iter().map(|(_, text)| &**text).collect();
+        assert_eq!(texts, ["0.1", "0.2", "0.3", "0.4", "0.5"]);
+        // In the middle of its cell, as the value would be.
+        assert!((ticks[0].0 - spacing.places[0]).abs() < 1e-9);
+        assert!((ticks[4].0 - spacing.places[59]).abs() < 1e-9);
+        let few = Spacing::new(&values[..3], 400.0).ticks(&values[..3], 30.0);
+        assert_eq!(few.len(), 3);
+    }
+
     #[test]
     fn cells_are_as_far_apart_as_their_values() {
         let even = Spacing::new(&[10.0, 20.0, 30.0], 300.0);

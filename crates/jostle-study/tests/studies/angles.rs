@@ -209,7 +209,7 @@ fn the_page_has_roses_and_the_worst_angles() {
     for part in [
         "Over the angle of incidence",
         "Greatest contact force",
-        "Smallest gap without pounding",
+        "Gap needed",
         "Greatest base torque",
         "without contact",
     ] {

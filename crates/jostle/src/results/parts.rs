@@ -150,7 +150,7 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
             ));
         }
         Some(format!(
-            "infill panels of \"{}\" can fall out of their plane: {} needs {:.2} times what it bears; the model keeps its struts all the same",
+            "infill panels of \"{}\" can fail out of plane: {} needs {:.2} times its strength; the model keeps its struts",
             building.name, worst.1, worst.0
         ))
     };
