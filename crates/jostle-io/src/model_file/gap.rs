@@ -256,7 +256,7 @@ fn width(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
     Some(width)
 }
 
-/// Notes gaps of one pair between the same floors: both would push.
+/// Warns of gaps of one pair between the same floors: both push, which is meant where a bumper bottoms out.
 pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model: &Model) {
     let gaps: Vec<&Gap> = model.gaps.iter().take(fields.len()).collect();
     for (index, gap) in gaps.iter().enumerate() {
@@ -265,10 +265,10 @@ pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model
             continue;
         };
         let line = reader.line(&fields[first].node.span);
-        *reader.bad(
+        reader.warn(
             &fields[index],
-            format!("joins floors that the [[gap]] of line {line} joins as well: both would push"),
-        ) = Some("keep one of them, or give each its own floors; a bumper that bottoms out is one gap with law = \"rubber\"".into());
+            &format!("joins floors that the [[gap]] of line {line} joins as well: where both close, both push"),
+        );
     }
 }
 

@@ -9,9 +9,6 @@ use crate::reader::{Reader, View};
 /// Default storey height of a shear building; only drifts and contacts depend on it \[m\].
 pub(super) const DEFAULT_STOREY_HEIGHT: f64 = 3.0;
 
-/// How much stiffer than the one below a storey can be without a warning \[–\].
-const MOST_GROWTH: f64 = 2.0;
-
 /// Reads the keys of a shear building; after a fault, harmless values are used.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
     let count = if is_single_floor(reader, view) {
@@ -50,21 +47,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Shear {
     }
 }
 
-/// Warns of a storey that is much stiffer than the one below: lists begin at the ground.
+/// Warns where every storey of three or more is stiffer than the one below: lists begin at the ground. A soft ground storey is none.
 fn note_growth(reader: &mut Reader<'_>, view: &View<'_>, stiffness: &[f64]) {
-    let grows = |pair: &[f64]| pair[1] > MOST_GROWTH * pair[0];
-    let Some(at) = stiffness.windows(2).position(grows) else {
+    let grows = stiffness.windows(2).all(|pair| pair[1] > pair[0]);
+    if stiffness.len() < 3 || !grows {
         return;
-    };
+    }
     if let Some(field) = reader.get(view, "stiffness") {
-        let ratio = stiffness[at + 1] / stiffness[at];
         reader.warn(
             &field,
-            &format!(
-                "storey {} is {ratio:.1} times as stiff as storey {} below it; lists begin at the ground",
-                at + 2,
-                at + 1
-            ),
+            "every storey is stiffer than the one below; lists begin at the ground",
         );
     }
 }
