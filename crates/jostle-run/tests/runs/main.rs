@@ -9,6 +9,7 @@ mod indentation;
 mod isolation_bounds;
 mod judged_members;
 mod long_histories;
+mod loose_tolerance;
 mod member_capacity;
 mod registry;
 mod shear_failure;
