@@ -12,7 +12,7 @@ use jostle_report::{Chart, Level, Section, Series, Stroke, rows_of_rules};
 use jostle_run::CaseCache;
 
 use super::curves::spread;
-use super::{Results, words};
+use super::Results;
 use crate::study::{Study, at_rest};
 
 /// Rules drawn over the intensity, by their names.
