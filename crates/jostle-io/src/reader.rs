@@ -80,6 +80,15 @@ impl<'n> Field<'n> {
         }
     }
 
+    /// The same place of the file with another value.
+    pub(crate) fn holding<'m>(&self, node: &'m Node) -> Field<'m> {
+        Field {
+            node,
+            path: self.path.clone(),
+            range: self.range,
+        }
+    }
+
     /// The entries of a list; `None` for any other value.
     pub(crate) fn entries(&self) -> Option<Vec<Field<'n>>> {
         match &self.node.value {

@@ -12,6 +12,7 @@ use super::section::{Material, STAND_IN, Sides, own_mass, rectangle, rigidities}
 use crate::keys::{AXIAL, Section, WALL_HINGES, WALL_STIFFNESS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
+use crate::tree::{Node, Value};
 
 /// Walls stand at a column line that is no farther from their place \[m\].
 const SAME_LINE: f64 = 1e-3;
@@ -341,13 +342,33 @@ fn read_hinges(
             floors
         }
     };
+    for key in ["cracking", "yield"] {
+        let stated = reader.get(&view, key);
+        let Some(count) = stated
+            .as_ref()
+            .and_then(|field| Some(field.entries()?.len()))
+        else {
+            continue;
+        };
+        if let Some(stated) = stated.filter(|_| count != floors.len()) {
+            let (levels, what) = (floors.len(), if everywhere { "storeys" } else { "floors" });
+            *reader.bad(
+                &stated,
+                format!("has {count} moments for {levels} {what} with hinges"),
+            ) = Some(
+                "give one moment for all, or a list with one for each, from the lowest up".into(),
+            );
+            return None;
+        }
+    }
     let mut hinges = Vec::new();
-    for floor in floors {
+    for (level, floor) in floors.into_iter().enumerate() {
         let foot = Foot {
             storey: heights[floor - lowest],
             ..*foot
         };
-        let hysteresis = read_hinge(reader, field, &foot)?;
+        let own = at_level(field.node, level);
+        let hysteresis = read_hinge(reader, &field.holding(&own), &foot)?;
         for at_head in [false, true] {
             if everywhere || !at_head {
                 hinges.push(WallHinge {
@@ -359,6 +380,23 @@ fn read_hinges(
         }
     }
     Some(hinges)
+}
+
+/// The table of hinges with the moments of one level in place of lists.
+fn at_level(hinges: &Node, level: usize) -> Node {
+    let mut own = hinges.clone();
+    if let Value::Table(table) = &mut own.value {
+        for entry in &mut table.entries {
+            let is_moment = ["cracking", "yield"].contains(&&*entry.key);
+            let Value::List(list) = &entry.node.value else {
+                continue;
+            };
+            if let Some(of_level) = list.get(level).filter(|_| is_moment).cloned() {
+                entry.node = of_level;
+            }
+        }
+    }
+    own
 }
 
 /// A hinge of a wall in a storey.

@@ -181,6 +181,31 @@ fn walls_yield_where_the_file_says() {
     assert!(all.contains(&(2, true)) && all.contains(&(3, false)));
 }
 
+/// Moments by level stand where the list says; those of one storey hold at both of its ends.
+#[test]
+fn walls_have_moments_by_level() {
+    let moments = |more: &str| {
+        let text = format!(
+            "line = 2\n[building.wall.hinge]\nrule = \"takeda\"\npost_cracking = 0.5\npost_yield = 0.02\ninitial = 50\n{more}\n"
+        );
+        let hinges = wall(&text).1.hinges;
+        let corners = hinges.iter().map(|hinge| {
+            let curve = hinge.hysteresis.backbone().side(Side::Positive);
+            (
+                hinge.storey,
+                [curve.cracking.force / 1e6, curve.yielding.force / 1e6],
+            )
+        });
+        corners.collect::<Vec<_>>()
+    };
+    let two = "floors = [0, 2]\ncracking = \"2 MN.m\"\nyield = [\"5 MN.m\", \"3.5 MN.m\"]";
+    assert_eq!(moments(two), [(1, [2.0, 5.0]), (3, [2.0, 3.5])]);
+    let all = "ends = \"all\"\ncracking = [2e6, 1.8e6, 1.6e6, 1.4e6]\nyield = [5e6, 4e6, 3e6, 2e6]";
+    let all = moments(all);
+    assert_eq!(all[2..4], [(2, [1.8, 4.0]); 2]);
+    assert_eq!(all[7], (4, [1.4, 2.0]));
+}
+
 /// Each fault names key and remedy.
 #[test]
 fn walls_that_do_not_fit_are_refused() {
@@ -213,6 +238,8 @@ fn walls_that_do_not_fit_are_refused() {
         (format!("{one}hinge = {{ rule = \"bilinear\", length = 4, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["hinge.length", "height of its storey"]),
         (format!("{one}hinge = {{ rule = \"bilinear\", floors = [4], initial = 50, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["hinge.floors", "between 0 and 3", "foot"]),
         (format!("{one}hinge = {{ rule = \"bilinear\", floors = [1], ends = \"all\", initial = 50, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["floors", "both given"]),
+        (format!("{one}hinge = {{ rule = \"bilinear\", floors = [0, 1], initial = 50, yield = [5e6, 4e6, 3e6], post_yield = 0.02 }}\n"), &["hinge.yield", "3 moments for 2 floors", "one for each"]),
+        (format!("{one}hinge = {{ rule = \"bilinear\", floors = [0, 1], initial = 50, yield = [5e6, \"4 MN\"], post_yield = 0.02 }}\n"), &["hinge.yield", "moment"]),
         (format!("{one}hinge = {{ rule = \"bilinear\", stiffness = 1e10, yield = \"500 kN\", post_yield = 0.02 }}\n"), &["hinge.yield", "moment"]),
         (format!("{one}shear = \"rigid\"\nshear_hinge = {{ rule = \"bilinear\", yield = 1e6, post_yield = 0.02 }}\n"), &["shear_hinge", "stiffness"]),
         (format!("{one}stiffness_factor = \"asce\"\n"), &["stiffness_factor", "asce41-23"]),

@@ -1,11 +1,13 @@
 //! Masses, springs, dashpots, links and contacts of a system as sparse rows over its displacements.
 
-use jostle::hysteresis::{Hysteresis, HysteresisRule};
+use jostle::hysteresis::{Hysteresis, HysteresisMemory, HysteresisRule};
 use jostle::linear::SparseSymmetric;
 use jostle::model::LinkLaw;
+use jostle::statics::STANDARD_GRAVITY;
 use jostle::{GroundMotion, System};
 
 use super::super::laws::Law;
+use super::massless::Massless;
 use super::slider::Slider;
 
 /// Coefficients of displacements.
@@ -40,6 +42,11 @@ impl Matrix {
                 add(column, row, value);
             }
         }
+    }
+
+    /// Its entries: row, column, value.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.0.iter().copied()
     }
 
     /// Adds the product with a vector.
@@ -133,6 +140,12 @@ pub(super) struct Bodies {
     pub(super) unknowns: usize,
     /// Kind of every displacement: of which building, and whether it turns.
     pub(super) groups: Vec<usize>,
+    /// Self weight, as a load against every displacement.
+    pub(super) weight: Vec<f64>,
+    /// Displacements under it, from which runs start, and what springs remember there.
+    pub(super) rest: (Vec<f64>, Vec<HysteresisMemory>),
+    /// Displacements without mass.
+    pub(super) massless: Massless,
 }
 
 impl Bodies {
@@ -150,22 +163,27 @@ impl Bodies {
             contacts: Vec::new(),
             unknowns: 0,
             groups: vec![0; n],
+            weight: vec![0.0; n],
+            rest: (vec![0.0; n], Vec::new()),
+            massless: Massless::default(),
         };
         for (index, building) in system.buildings.iter().enumerate() {
             let (equations, offset) = (&building.equations, building.offset);
-            if equations.mass.iter().any(|mass| *mass <= 0.0) {
-                return Err(format!(
-                    "\"{}\" has displacements without mass",
-                    building.name
-                ));
-            }
             if building.modal_damping.is_some() {
                 return Err("damping in all modes is not part of this".into());
             }
-            if building.rest.displacement.iter().any(|u| *u != 0.0) {
-                return Err("displacements under self weight are not part of this".into());
-            }
             let range = building.range();
+            if building.rest.displacement.iter().any(|u| *u != 0.0) {
+                bodies.rest.0[range.clone()].copy_from_slice(&building.rest.displacement);
+                let weight = bodies.weight[range.clone()].iter_mut();
+                for (weight, mass) in weight.zip(&equations.weighing_mass) {
+                    *weight = STANDARD_GRAVITY * mass;
+                }
+            }
+            let known = building.rest.springs.iter().copied();
+            let unloaded = std::iter::repeat(HysteresisMemory::default());
+            let memories = known.chain(unloaded).take(equations.springs.len());
+            bodies.rest.1.extend(memories);
             bodies.mass[range.clone()].copy_from_slice(&equations.mass);
             bodies.alpha[range.clone()].fill(equations.alpha);
             bodies.driven[0][range.clone()].copy_from_slice(&equations.driven_mass);
@@ -228,6 +246,7 @@ impl Bodies {
                 ends: ends.map(|end| (closing(&end.ports), end.inside)).collect(),
             });
         }
+        bodies.massless = Massless::of(&bodies)?;
         Ok(bodies)
     }
 

@@ -39,6 +39,12 @@ impl Phases {
             SpringLaw::Rule(_) => SpringPhase::Rule(HysteresisMemory::default()),
             SpringLaw::Slider(_) => SpringPhase::Slider(Mode::REST),
         });
+        // What they bear under self weight.
+        let springs = springs.zip(&bodies.rest.1);
+        let springs = springs.map(|(phase, memory)| match phase {
+            SpringPhase::Rule(_) => SpringPhase::Rule(*memory),
+            other => other,
+        });
         let links = bodies.links.iter().map(|link| match link.answer {
             Answer::Rule(_) => LinkPhase::Rule(HysteresisMemory::default()),
             Answer::Slider(_) => LinkPhase::Slider(Mode::REST),
@@ -77,17 +83,25 @@ pub(super) struct Forces {
 }
 
 impl Bodies {
-    /// Forces and accelerations at an instant.
+    /// Forces and accelerations at an instant. Displacements without mass are moved to where they are in equilibrium.
     pub(super) fn forces(
         &self,
         motion: &GroundMotion,
         t: f64,
-        state: &Motion,
+        state: &mut Motion,
         phases: &Phases,
         out: &mut Forces,
     ) {
         let n = self.len();
-        let Motion { u, v, z } = state;
+        if !self.massless.settle(self, phases, state) {
+            state.u.fill(f64::NAN);
+        }
+        if !self.massless.dofs.is_empty() {
+            let mut rates = std::mem::take(&mut state.v);
+            self.massless.follow(self, phases, state, &mut rates);
+            state.v = rates;
+        }
+        let Motion { u, v, z } = &*state;
         out.ground = motion.components(t.min(motion.duration));
         out.restoring.clear();
         out.restoring.resize(n, 0.0);
@@ -100,7 +114,8 @@ impl Bodies {
             *value = -*value
                 - self.alpha[k] * self.mass[k] * v[k]
                 - self.driven[0][k] * out.ground[0]
-                - self.driven[1][k] * out.ground[1];
+                - self.driven[1][k] * out.ground[1]
+                - self.weight[k];
         }
         out.springs.clear();
         for (index, (spring, phase)) in self.springs.iter().zip(&phases.springs).enumerate() {
@@ -171,8 +186,12 @@ impl Bodies {
             out.contacts.push(force);
         }
         for (k, value) in load.iter_mut().enumerate() {
-            *value = (*value - out.restoring[k]) / self.mass[k];
+            *value = match self.mass[k] > 0.0 {
+                true => (*value - out.restoring[k]) / self.mass[k],
+                false => 0.0,
+            };
         }
+        self.massless.follow(self, phases, state, load);
     }
 }
 

@@ -9,12 +9,14 @@
 //! Touches, releases, corners, reversals and the starts and ends of slipping are located on polynomials of degree five over a step and
 //! the step is taken again up to there. Peaks are those of quartics through five instants of a step.
 //!
-//! It needs mass at every displacement.
+//! Displacements without mass stand where they are in equilibrium at every instant (`massless`); dashpots and friction act on none of
+//! them.
 
 mod bodies;
 mod course;
 mod events;
 mod forces;
+mod massless;
 mod slider;
 #[cfg(test)]
 mod tests;
@@ -161,7 +163,7 @@ impl<'a> Run<'a> {
     ) -> Self {
         let n = bodies.len();
         let state = Motion {
-            u: vec![0.0; n],
+            u: bodies.rest.0.clone(),
             v: vec![0.0; n],
             z: vec![0.0; bodies.unknowns],
         };
@@ -209,7 +211,7 @@ impl<'a> Run<'a> {
             self.bodies.forces(
                 self.motion,
                 self.time,
-                &self.state,
+                &mut self.state,
                 &self.phases,
                 &mut self.forces,
             );
@@ -317,7 +319,7 @@ impl<'a> Run<'a> {
             self.bodies.forces(
                 self.motion,
                 self.time + NODES[stage] * h,
-                &self.after,
+                &mut self.after,
                 &self.phases,
                 &mut self.after_forces,
             );
@@ -333,7 +335,9 @@ impl<'a> Run<'a> {
             let all = self.stages.iter().zip(ERRORS);
             h * all.map(|(stage, weight)| weight * of(stage)).sum::<f64>()
         };
-        for k in 0..n {
+        // Those without mass follow.
+        let masses = (0..n).filter(|k| self.bodies.mass[*k] > 0.0);
+        for k in masses {
             let [speed, way] = self.greatest[self.bodies.groups[k]];
             worst = worst
                 .max(sum(&|stage| stage.velocity[k]).abs() / way)

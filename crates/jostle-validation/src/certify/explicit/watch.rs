@@ -191,7 +191,7 @@ impl Watch {
             bodies.forces(
                 motion,
                 time + s * h,
-                &self.middle,
+                &mut self.middle,
                 phases,
                 &mut self.middle_forces,
             );

@@ -2,6 +2,7 @@
 
 mod isolation;
 mod links;
+mod members;
 mod plans;
 mod soil;
 mod yielding;
@@ -22,7 +23,7 @@ pub struct Family {
 }
 
 /// All families.
-pub const FAMILIES: [Family; 5] = [
+pub const FAMILIES: [Family; 6] = [
     Family {
         name: "yielding",
         draw: yielding::draw,
@@ -42,6 +43,10 @@ pub const FAMILIES: [Family; 5] = [
     Family {
         name: "soil",
         draw: soil::draw,
+    },
+    Family {
+        name: "members",
+        draw: members::draw,
     },
 ];
 
