@@ -77,7 +77,13 @@ class PushView {
     this.heads = svg("path", { class: "push-head" }, drawing);
     const storey = (building.height / building.floors.length) * scale;
     this.offset = Math.min(9, 0.22 * storey);
-    this.hinges = building.hinges.map(() => svg("circle", { class: "hinge", r: Math.min(4.5, Math.max(1.6, 0.1 * storey)) }, drawing));
+    // Fibres of a section share one mark.
+    const marks = new Map();
+    const mark = () => svg("circle", { class: "hinge", r: Math.min(4.5, Math.max(1.6, 0.1 * storey)) }, drawing);
+    this.hinges = building.hinges.map((where) => {
+      if (where && !marks.has(where.join())) marks.set(where.join(), mark());
+      return where && marks.get(where.join());
+    });
     // Storey drifts.
     const peak = Math.max(...this.curves.map((curve) => curve.drifts.reduce((most, drift) => Math.max(most, Math.abs(drift)), 0)), 1e-9);
     this.drift = (value) => side.left + (value / peak) * side.width;
@@ -117,22 +123,22 @@ class PushView {
     ];
     this.bent.setAttribute("d", this.lines(place));
     let [cracked, yielded] = [0, 0];
+    const worst = new Map();
     building.hinges.forEach((where, index) => {
       const circle = this.hinges[index];
-      circle.style.display = where ? "" : "none";
-      if (where) {
-        const [a, b, dx, dy] = where;
-        const [first, last] = [place(a), place(b)];
-        circle.setAttribute("cx", (0.5 * (first[0] + last[0]) + dx * this.offset).toFixed(1));
-        circle.setAttribute("cy", (0.5 * (first[1] + last[1]) - dy * this.offset).toFixed(1));
-      }
       const [cracks, yields] = curve.hinges[index];
       const after = (at) => at !== null && roof >= at - 1e-9 * curve.end;
-      const stage = after(yields) ? " yielded" : after(cracks) ? " cracked" : "";
-      yielded += stage === " yielded";
-      cracked += stage !== "";
-      circle.setAttribute("class", `hinge${stage}`);
+      const stage = after(yields) ? 2 : after(cracks) ? 1 : 0;
+      yielded += stage === 2;
+      cracked += stage > 0;
+      if (circle) worst.set(circle, { where, stage: Math.max(stage, worst.get(circle)?.stage ?? 0) });
     });
+    for (const [circle, { where: [a, b, dx, dy], stage }] of worst) {
+      const [first, last] = [place(a), place(b)];
+      circle.setAttribute("cx", (0.5 * (first[0] + last[0]) + dx * this.offset).toFixed(1));
+      circle.setAttribute("cy", (0.5 * (first[1] + last[1]) - dy * this.offset).toFixed(1));
+      circle.setAttribute("class", `hinge${["", " cracked", " yielded"][stage]}`);
+    }
     const [at, part] = between(curve.roof, roof);
     const value = (list) => list[at] + part * (list[at + 1] - list[at]);
     const shear = value(curve.shear);
