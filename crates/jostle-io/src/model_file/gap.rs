@@ -2,8 +2,8 @@
 
 use jostle::interface::narrowest_gap;
 use jostle::{
-    Building, ContactLaw, FloorPairs, Gap, Level, Model, PlanContact, PlanPoint, RestitutionIs,
-    Structure, Wall,
+    Building, ContactLaw, FloorPairs, Gap, LawKind, Level, Model, PlanContact, PlanPoint,
+    RestitutionIs, Structure, Wall,
 };
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
@@ -256,7 +256,7 @@ fn width(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
     Some(width)
 }
 
-/// Notes gaps of one pair between the same floors: both would push.
+/// Notes gaps of one pair between the same floors, where both would push. A rubber bumper may stand out from a face.
 pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model: &Model) {
     let gaps: Vec<&Gap> = model.gaps.iter().take(fields.len()).collect();
     for (index, gap) in gaps.iter().enumerate() {
@@ -268,13 +268,14 @@ pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model
         *reader.bad(
             &fields[index],
             format!("joins floors that the [[gap]] of line {line} joins as well: both would push"),
-        ) = Some("keep one of them, or give each its own floors; a bumper that bottoms out is one gap with law = \"rubber\"".into());
+        ) = Some("keep one of them, or give each its own floors; only a bumper with law = \"rubber\" may stand out from a face".into());
     }
 }
 
 /// Whether two gaps of one pair have points in common.
 fn joins_the_same(a: &Gap, b: &Gap, model: &Model) -> bool {
-    if a.between != b.between || a.between == ALL_NEIGHBOURS {
+    let is_bumper = |gap: &Gap| matches!(gap.law.kind, LawKind::Rubber(_));
+    if a.between != b.between || a.between == ALL_NEIGHBOURS || is_bumper(a) != is_bumper(b) {
         return false;
     }
     if a.floors == b.floors {

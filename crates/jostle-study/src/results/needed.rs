@@ -11,8 +11,8 @@ use jostle_report::message;
 use jostle_report::{Chart, Level, Section, Series, Stroke, rows_of_rules};
 use jostle_run::CaseCache;
 
-use super::curves::spread;
 use super::Results;
+use super::curves::spread;
 use crate::study::{Study, at_rest};
 
 /// Rules drawn over the intensity, by their names.
