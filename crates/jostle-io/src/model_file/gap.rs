@@ -2,8 +2,8 @@
 
 use jostle::interface::narrowest_gap;
 use jostle::{
-    Building, ContactLaw, FloorPairs, Gap, Level, Model, PlanContact, PlanPoint, RestitutionIs,
-    Structure, Wall,
+    Building, ContactLaw, FloorPairs, Gap, LawKind, Level, Model, PlanContact, PlanPoint,
+    RestitutionIs, Structure, Wall,
 };
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
@@ -256,7 +256,7 @@ fn width(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
     Some(width)
 }
 
-/// Warns of gaps of one pair between the same floors: both push, which is meant where a bumper bottoms out.
+/// Warns of gaps of one pair between the same floors: both push. A rubber bumper may stand out from a face.
 pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model: &Model) {
     let gaps: Vec<&Gap> = model.gaps.iter().take(fields.len()).collect();
     for (index, gap) in gaps.iter().enumerate() {
@@ -274,7 +274,8 @@ pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model
 
 /// Whether two gaps of one pair have points in common.
 fn joins_the_same(a: &Gap, b: &Gap, model: &Model) -> bool {
-    if a.between != b.between || a.between == ALL_NEIGHBOURS {
+    let is_bumper = |gap: &Gap| matches!(gap.law.kind, LawKind::Rubber(_));
+    if a.between != b.between || a.between == ALL_NEIGHBOURS || is_bumper(a) != is_bumper(b) {
         return false;
     }
     if a.floors == b.floors {

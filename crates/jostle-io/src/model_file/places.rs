@@ -189,10 +189,14 @@ fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option
     if range[0] == 0 || range[1] < range[0] || range[1] > most {
         *reader.bad(
             field,
-            format!(
-                "must be ascending, within 1 to {most}, found {} to {}",
-                range[0], range[1]
-            ),
+            match range {
+                [one, other] if one == other => {
+                    format!("must be within 1 to {most}, found {one}")
+                }
+                [first, last] => {
+                    format!("must be ascending, within 1 to {most}, found {first} to {last}")
+                }
+            },
         ) = Some("count lines, bays and storeys from 1; a beam has the number of the line at which it begins".into());
         return None;
     }

@@ -112,7 +112,7 @@ fn mistakes_are_explained() {
         ),
         (
             "[[building.brace]]\nEA = \"1 GN\"\nbay = 3\n",
-            "must be ascending, within 1 to 2, found 3 to 3",
+            "must be within 1 to 2, found 3",
         ),
         (
             "[[building.brace]]\nEA = \"1 GN\"\nstoreys = [3, 4]\n",

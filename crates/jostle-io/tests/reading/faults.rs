@@ -109,7 +109,7 @@ model.toml:13:8: building[0].beam: has 2 entries for 5 storeys; give one value, 
 model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25, C30, C35, C40, C45, C50, C55, C60, C65, C70, C75, C80, C12/15, C16/20, C20/25, C25/30, C30/37, C35/45, C40/50, C45/55, C50/60, C55/67, C60/75, C70/85, C80/95, C90/105
   14 | concrete = "C33"
      |            ^^^^^
-  help: did you mean "C30"?
+  help: did you mean "C30"? Or a cylinder strength is written "f'c = 4 ksi"
 
 model.toml:16:19: building[0].hinges.rule: "norml" is not known; available: normal, peak-oriented, takeda, d-tri, pinched, bilinear, elastic
   16 | hinges = { rule = "norml", column = { yield = "400 kN" } }

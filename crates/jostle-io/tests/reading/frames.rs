@@ -244,12 +244,12 @@ fn what_does_not_stand_is_refused_with_the_remedy() {
             "storeys = 3\nomit = true",
             "leaves storey 3 without any column",
         ),
-        ("line = 4", "line = 5", "between 1 and 4, found 5 to 5"),
-        ("line = [2, 3]", "line = [3, 2]", "must rise"),
+        ("line = 4", "line = 5", "must be within 1 to 4, found 5"),
+        ("line = [2, 3]", "line = [3, 2]", "must be ascending"),
         (
             "storeys = [3, 4]",
             "storeys = [3, 5]",
-            "between 1 and 4, found 3 to 5",
+            "within 1 to 4, found 3 to 5",
         ),
         (
             "line = 4",
@@ -292,7 +292,7 @@ fn what_does_not_stand_is_refused_with_the_remedy() {
         ),
         (
             format!("{beam}floors = [4, 5]\n"),
-            "between 1 and 4, found 4 to 5",
+            "within 1 to 4, found 4 to 5",
         ),
         (
             "[[building.brace]]\nbay = 1\nstoreys = 4\nEA = \"300 MN\"\n".to_owned(),

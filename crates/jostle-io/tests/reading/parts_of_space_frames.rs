@@ -131,7 +131,7 @@ fn wrong_places_are_refused() {
     );
     let beyond = refused("brace = [{ along = \"x\", x = 3, EA = 3e8 }]\n");
     assert!(
-        beyond.contains("must be ascending, within 1 to 2"),
+        beyond.contains("must be within 1 to 2, found 3"),
         "{beyond}"
     );
     let bay = refused("brace = [{ along = \"x\", bay = 1, EA = 3e8 }]\n");

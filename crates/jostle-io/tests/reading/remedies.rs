@@ -94,11 +94,6 @@ fn faults_say_what_to_write() {
             "units = \"us\"\n[motion]",
             &["units belongs under [output]"],
         ),
-        (
-            "el-centro-1940-ns",
-            "no.at2",
-            &["there is no record \"no.at2\" in the current folder;"],
-        ),
     ];
     for (from, to, parts) in cases {
         let shown = refusal(&with(from, to));
@@ -130,6 +125,8 @@ fn gaps_between_the_same_floors_are_warned_of() {
             "{keys}:\n{shown}"
         );
     }
+    let bumper = "law = \"rubber\"\nthickness = \"25 mm\"\nstiffness = \"30 MN/m\"";
+    assert!(!warnings(&second(bumper)).contains("joins floors"), "a bumper before the face");
     let apart =
         second("floors = [[3, 3]]").replace("law = \"hertz-damp\"", "floors = [[1, 1], [2, 2]]");
     for text in [second("floors = [[2, \"5 m\"]]"), apart] {
@@ -154,7 +151,7 @@ fn stiffness_that_grows_upwards_is_warned_of() {
     );
 }
 
-/// The record has 3.417 m/s², of which 0.35 m/s² is a tenth.
+/// The record has 3.13 m/s², of which 0.35 m/s² is a ninth.
 #[test]
 fn a_peak_in_g_without_unit_is_asked_about() {
     let asked = |pga: &str| {
@@ -163,13 +160,31 @@ fn a_peak_in_g_without_unit_is_asked_about() {
         input.unusual_motion(&motion)
     };
     let text = asked("0.35").expect("asked");
-    assert!(text.starts_with("motion.pga: 0.35 m/s² is 0.10"), "{text}");
+    assert!(
+        text.starts_with("motion.pga: 0.35 m/s² is 0.112 "),
+        "{text}"
+    );
     assert!(
         text.ends_with("of the peak of the record; is it 0.35 g?"),
         "{text}"
     );
     assert_eq!(asked("\"0.35 m/s2\""), None);
     assert_eq!(asked("0.9"), None);
+}
+
+#[test]
+fn a_missing_record_names_the_folder() {
+    let text = with("el-centro-1940-ns", "no.at2");
+    let missing = |folder: &str| {
+        let input = read_model_text("m.toml", &text, Format::Toml, Path::new(folder));
+        let motion = input.expect("valid").ground_motion();
+        motion.expect_err("it is missing").to_string()
+    };
+    for (folder, words) in [("", "in the current folder"), ("sub", "in the folder sub")] {
+        let shown = missing(folder);
+        let wanted = format!("there is no record \"no.at2\" {words}; built-in records: ");
+        assert!(shown.contains(&wanted), "{shown}");
+    }
 }
 
 #[test]

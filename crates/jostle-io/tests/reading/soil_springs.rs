@@ -89,7 +89,7 @@ fn faults_say_what_is_missing() {
         ("floors = 1", "soil_spring[0].stiffness: is missing"),
         (
             "floors = [2, 1]\nstiffness = 2e8",
-            "soil_spring[0].floors: must rise",
+            "soil_spring[0].floors: must be ascending",
         ),
         (
             "floors = 5\nstiffness = 2e8",

@@ -157,7 +157,7 @@ fn what_does_not_fit_is_refused_with_the_remedy() {
             "add beam_x",
         ),
         ("depth = \"0.6 m\"", "depth = \"0 m\"", "greater than zero"),
-        ("x = [1, 2]", "x = [1, 4]", "between 1 and 3"),
+        ("x = [1, 2]", "x = [1, 4]", "within 1 to 3"),
         (
             "x = [1, 2]\ny = 1",
             "x = 3\ny = 3",

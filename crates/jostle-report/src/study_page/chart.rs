@@ -208,7 +208,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                 }
                 @for DotName { name, dot, at } in dot_names(chart, &px, &py) {
                     @if (at[1] - dot[1]).abs() > LINE {
-                        g.grid { line x1=(format!("{:.1}", dot[0])) y1=(format!("{:.1}", dot[1])) x2=(format!("{:.1}", at[0] - 2.0)) y2=(format!("{:.1}", at[1] - 4.0)) {} }
+                        line style="stroke:var(--ink-2);stroke-width:.6" x1=(format!("{:.1}", dot[0])) y1=(format!("{:.1}", dot[1])) x2=(format!("{:.1}", at[0] - 2.0)) y2=(format!("{:.1}", at[1] - 4.0)) {}
                     }
                     text.study-level-name x=(format!("{:.1}", at[0])) y=(format!("{:.1}", at[1])) { (name) }
                 }
