@@ -20,7 +20,7 @@ impl Comparison {
             .filter_map(|column| Some((column.score.correlation?, &column.computed_name)));
         if let Some((least, name)) = worst.min_by(|a, b| a.0.total_cmp(&b.0)) {
             sentences.push(format!(
-                "{}; the least correlation is {least:.4}, of {name}.",
+                "Correlation with the measurements is {least:.3} or better in {}; worst: {name}.",
                 counted(self.columns.len(), "history").replace("historys", "histories")
             ));
         }
