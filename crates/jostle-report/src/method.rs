@@ -169,9 +169,9 @@ fn error_text(error: f64) -> String {
     if !error.is_finite() {
         message::overflow().to_owned()
     } else if error > LOST {
-        message::error_lost(format_args!("{:.0e}", error))
+        message::error_lost(format::significant(error, 1))
     } else {
-        format!("{error:.0e}")
+        format::significant(error, 1)
     }
 }
 

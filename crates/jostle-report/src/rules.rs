@@ -23,7 +23,7 @@ pub(crate) fn capacity_rule_name(key: &str) -> &str {
         "en1998-3" => "EN 1998-3",
         "asce41" => "ASCE 41",
         "aci318" => "ACI 318",
-        "sezen-moehle" => "Sezen and Moehle",
+        "sezen-moehle" => message::sezen_and_moehle(),
         other => other,
     }
 }

@@ -1,7 +1,9 @@
 //! Keys of a model file in words, as headings, axes and tiles have them.
 
 /// What a key says, of those whose own words mean less: path without its owner, words, and whether these need no owner.
-const WORDS: [(&str, &str, bool); 16] = [
+const WORDS: [(&str, &str, bool); 18] = [
+    ("pga", "peak ground acceleration", true),
+    ("reverse", "signs changed", true),
     ("motion.pga", "peak ground acceleration", true),
     ("motion.scale", "factor on the record", true),
     ("motion.reverse", "signs changed", true),

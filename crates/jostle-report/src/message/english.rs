@@ -1277,10 +1277,13 @@ messages! {
     needed_gap = "needed";
     to_a_range = " to ";
     show_all_members(count) = "Show all {count} members";
+    sezen_and_moehle = "Sezen and Moehle";
+    gap_needed_of_suite(needed, record, there) = " The greatest gap needed is {needed} ({record}); the gap is {there}.";
     none_required = "none required";
     gap_needed_at(name, widths, of_all) = "Gap needed over {name}: {widths}{of_all}.";
     width_at_level(width, level) = "{width} {mm} at {level}";
-    matters_most(result, factors) = "What changes {result} most: {factors}.";
+    matters_most(factors) = "What matters most: {factors}.";
+    matters_for(result, factors) = "for {result} {factors}";
     then_of = ", then ";
     impacts_from_intensity(name, value) = "The buildings touch from {name} {value} on.";
     impacts_at_every_intensity(name, value) = "The buildings touch at every {name} of the study, {value} and more.";

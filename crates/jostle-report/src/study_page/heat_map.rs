@@ -43,7 +43,7 @@ const BOTTOM: f64 = 44.0;
 /// Room for the title of the upward axis.
 const TOP: f64 = 24.0;
 /// Width of a letter of the numbers in cells.
-const LETTER: f64 = 7.0;
+const LETTER: f64 = 6.4;
 /// Widest cell.
 const WIDEST: f64 = 90.0;
 /// Steps of the colour bar.

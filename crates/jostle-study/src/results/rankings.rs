@@ -67,6 +67,7 @@ impl Results<'_> {
         let mut lines: Vec<Line> = Vec::new();
         let mut bars: Vec<Bars> = Vec::new();
         let mut silent: Vec<String> = Vec::new();
+        let mut most: Vec<String> = Vec::new();
         for response in responses {
             let values = self.table.column(response).to_vec();
             let (axis, size) = words::axis(response);
@@ -132,7 +133,7 @@ impl Results<'_> {
                 _ => line.numbers[0],
             };
             sort_by(&mut response_lines, |a, b| weight(b).total_cmp(&weight(a)));
-            self.said.push(message::matters_most(
+            most.push(message::matters_for(
                 &axis.name,
                 response_lines
                     .iter()
@@ -165,6 +166,9 @@ impl Results<'_> {
                 legend: legend.map(|name| name.replace('_', " ")),
             });
             lines.extend(response_lines);
+        }
+        if !most.is_empty() {
+            self.said.push(message::matters_most(most.join("; ")));
         }
         let limit = |which: usize, end: usize| {
             let all = lines.iter().map(|line| Some(line.limits?[which][end]));
