@@ -170,6 +170,8 @@ const told = () => {
 };
 const detail = () => {
   const box = element("detail");
+  // A hint to click is of no use on paper.
+  box.classList.toggle("screen", chosen < 0);
   if (chosen < 0) { box.innerHTML = "<h3>No building chosen</h3><p class=\"quiet\">Click a building, or a row of the list below.</p>"; return; }
   const percent = (v) => `${Math.round(100 * v)} %`;
   const rows = [];

@@ -309,10 +309,11 @@ impl City {
             |(within, worst)| {
                 format!(
                     "{} rows were run again by the program's own stepping at 1e-4: {} of their peaks lie within {} of it, the \
-                     worst {worst:.1e} away.",
+                     worst {} away.",
                     answers.sampled.rows,
                     percent(within),
-                    self.file.tolerance
+                    self.file.tolerance,
+                    percent(worst)
                 )
             },
         );

@@ -570,5 +570,6 @@ class Scene {
 
 /** A length of the order of a gap without needless decimals. */
 function readableLength(metres) {
-  return `${Number((metres * unitOf("mm").factor).toPrecision(4))} ${unitOf("mm").name}`;
+  const { factor, name } = unitOf("mm");
+  return `${Number(name === "in" ? (metres * factor).toFixed(2) : (metres * factor).toPrecision(4))} ${name}`;
 }

@@ -4,7 +4,15 @@
 function short(value) {
   if (value === 0) return "0";
   const size = Math.abs(value);
-  return size >= 1e5 || size < 1e-4 ? value.toExponential(1).replace("-", "−") : String(Number(value.toPrecision(3))).replace("-", "−");
+  if (size >= 1e6 || size < 1e-4) {
+    const [mantissa, power] = value.toExponential(1).replace("e+", "e").split("e");
+    const exponent = [...power].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit])).join("");
+    const front = mantissa === "1.0" ? "" : `${Number(mantissa)} × `;
+    return `${front}10${exponent}`.replace("-", "−");
+  }
+  const [whole, part] = String(Number(value.toPrecision(size >= 1e3 ? 4 : 3))).replace("-", "−").split(".");
+  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u202f") : whole;
+  return part ? `${grouped}.${part}` : grouped;
 }
 
 /**

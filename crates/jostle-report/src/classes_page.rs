@@ -4,7 +4,7 @@ use maud::html;
 use serde_json::Value;
 
 use crate::document::render_document;
-use crate::message;
+use crate::{format, message};
 
 const SCRIPTS: [&str; 3] = [
     include_str!("../assets/messages.js"),
@@ -13,16 +13,32 @@ const SCRIPTS: [&str; 3] = [
 ];
 const STUDY_STYLE: &str = include_str!("../assets/study.css");
 
+/// How much pounding changes the intensity of damage, over all pairs; `None` where no pair has a factor.
+fn answer(data: &Value) -> Option<String> {
+    let curves = data["curves"].as_array()?.iter();
+    let factors = curves.filter_map(|curve| curve["factor"].as_f64());
+    let least = factors.clone().min_by(f64::total_cmp)?;
+    let most = factors.max_by(f64::total_cmp)?;
+    Some(message::classes_answer(
+        format::fixed(least, 2),
+        format::fixed(most, 2),
+    ))
+}
+
 /// The page of classes: one HTML file that opens offline. `data` holds `pairs`, `curves`, `gaps`, `states`, `measure`,
 /// `range`, counts, deviations, `warnings` and the names of the tables of `capacities` and `damage`; intensities are in g.
 #[must_use]
 pub fn render_classes(title: &str, data: &Value) -> String {
     let number = |key: &str| data[key].as_f64().unwrap_or(0.0);
     let text = |key: &str| data[key].as_str().unwrap_or("HAZUS");
-    let deviation = |key: &str| format!("{:.1e}", number(key));
+    let deviation = |key: &str| {
+        let percent = format::significant(100.0 * number(key), 2);
+        format::unit(percent, "%")
+    };
     let warnings = data["warnings"].as_array().map_or(&[][..], Vec::as_slice);
     let body = html! {
-        p.verdict { (message::classes_cases(number("cases"), number("motions"), number("draws"))) }
+        @if let Some(answer) = answer(data) { p.verdict { (answer) } }
+        p.quiet { (message::classes_cases(number("cases"), number("motions"), number("draws"))) }
         @if number("checked") > 0.0 {
             p.quiet { (message::classes_checked(number("checked"), deviation("drift_deviation"), deviation("force_deviation"))) }
         }

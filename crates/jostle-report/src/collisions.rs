@@ -108,6 +108,7 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                     }
                 } (theme_button()) }
                 main {
+                    p.verdict { (verdict(collisions)) }
                     section { h2 { (message::numbers()) } (table(collisions)) }
                     @for (across, heading) in [(Across::Time, message::force_over_time()), (Across::Indentation, message::force_over_indentation())] {
                         section {
@@ -125,6 +126,34 @@ pub fn render_collisions(collisions: &Collisions) -> String {
         }
     };
     page.into_string()
+}
+
+/// The result in a sentence.
+fn verdict(collisions: &Collisions) -> String {
+    let restitution = |law: &CollidedLaw| law.collision.realised_restitution();
+    let shown = |e: f64| format::fixed(e, 2);
+    if let [law] = &collisions.laws[..] {
+        let force = law
+            .collision
+            .peak_force
+            .map_or(format::NOTHING.into(), format::force);
+        let name = format::capital(&law.law.kind.full_name());
+        return message::one_law_rebounds(name, force, shown(restitution(law)));
+    }
+    let forces = collisions
+        .laws
+        .iter()
+        .filter_map(|law| law.collision.peak_force);
+    let all = collisions.laws.iter().map(restitution);
+    let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
+    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::NEG_INFINITY, f64::max);
+    message::laws_differ(
+        collisions.laws.len(),
+        format::force(least(&mut forces.clone())),
+        format::force(most(&mut forces.clone())),
+        shown(least(&mut all.clone())),
+        shown(most(&mut all.clone())),
+    )
 }
 
 fn table(collisions: &Collisions) -> Markup {

@@ -101,5 +101,5 @@ fn stiffness_used(row: &ContactBox) -> String {
 }
 
 fn power(value: f64) -> String {
-    format!("{:.2e}", format::HERTZ_STIFFNESS.of(value))
+    format::significant(format::HERTZ_STIFFNESS.of(value), 3)
 }

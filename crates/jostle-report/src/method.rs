@@ -4,7 +4,7 @@ use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
-use crate::message;
+use crate::{format, message};
 
 /// Which error of a row to show.
 type ErrorOf = fn(&StepAccuracy) -> f64;
@@ -39,6 +39,7 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
                     (theme_button())
                 }
                 main {
+                    @if let Some(verdict) = verdict(surveys) { p.verdict { (verdict) } }
                     @for survey in surveys { section { h2 { (survey.name) } (building(survey)) } }
                     (explanation(surveys))
                 }
@@ -47,6 +48,18 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
         }
     };
     page.into_string()
+}
+
+/// The result in a sentence.
+fn verdict(surveys: &[MethodSurvey]) -> Option<String> {
+    let steps = || surveys.iter().flat_map(|survey| &survey.accuracy);
+    let worst = steps().map(|step| step.riccati).max_by(f64::total_cmp)?;
+    let least = steps().map(|step| step.step).min_by(f64::total_cmp)?;
+    let digits = (-worst.max(FINEST).log10()).floor().max(0.0);
+    Some(message::riccati_keeps(
+        format::fixed(digits, 0),
+        format::plain(1e3 * least, 3),
+    ))
 }
 
 /// The same inside the report of a run; empty without surveys.
@@ -156,9 +169,9 @@ fn error_text(error: f64) -> String {
     if !error.is_finite() {
         message::overflow().to_owned()
     } else if error > LOST {
-        message::error_lost(format_args!("{:.0e}", error))
+        message::error_lost(format::significant(error, 1))
     } else {
-        format!("{error:.0e}")
+        format::significant(error, 1)
     }
 }
 

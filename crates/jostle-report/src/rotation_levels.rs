@@ -6,7 +6,8 @@ use maud::{Markup, html};
 
 use crate::{Page, format, message};
 
-/// Most rows of the table.
+/// Rows of the table before the reader asks for all, and at most.
+const FIRST_ROWS: usize = 20;
 const MOST_ROWS: usize = 200;
 
 /// The section; `None` without limits.
@@ -47,7 +48,7 @@ fn table(all: &[&MemberLevel]) -> Markup {
             p.quiet { (message::first_levels_of_members(MOST_ROWS, all.len())) }
         }
         div.scroll {
-            table {
+            table #level-table.clipped {
                 caption.quiet { (message::worst_level_first()) }
                 thead { tr {
                     th scope="col" { (message::member()) }
@@ -60,8 +61,8 @@ fn table(all: &[&MemberLevel]) -> Markup {
                     }
                 } }
                 tbody {
-                    @for own in all.iter().take(MOST_ROWS) {
-                        tr {
+                    @for (index, own) in all.iter().take(MOST_ROWS).enumerate() {
+                        tr.beyond[index >= FIRST_ROWS] {
                             th scope="row" { (own.member) }
                             td { (own.at) }
                             td.number { (format::significant(1e3 * own.rotation_rad, 3)) }
@@ -71,6 +72,9 @@ fn table(all: &[&MemberLevel]) -> Markup {
                     }
                 }
             }
+        }
+        @if all.len() > FIRST_ROWS {
+            button.wide.unfold type="button" data-table="level-table" { (message::show_all_members(all.len().min(MOST_ROWS))) }
         }
     }
 }

@@ -16,6 +16,18 @@ pub fn rule_name(name: &str) -> String {
     }
 }
 
+/// A rule of capacity as it is written: `gb50010` is `GB 50010`.
+pub(crate) fn capacity_rule_name(key: &str) -> &str {
+    match key {
+        "gb50010" => "GB 50010",
+        "en1998-3" => "EN 1998-3",
+        "asce41" => "ASCE 41",
+        "aci318" => "ACI 318",
+        "sezen-moehle" => message::sezen_and_moehle(),
+        other => other,
+    }
+}
+
 /// Rules with their names, in their order. Where GB 50011 requires the same width at every intensity, one row holds for all.
 ///
 /// `name_and_width` gives the name of a rule and the gap that it requires \[m\].
@@ -41,9 +53,12 @@ pub fn rows_of_rules<T>(
     rows
 }
 
-/// A required width in words: whole millimetres, or hundredths of an inch, rounded up, with the unit.
+/// A required width in words: whole millimetres, or hundredths of an inch, rounded up, with the unit; of zero that none is required.
 #[must_use]
 pub fn required_width(metres: f64) -> String {
+    if metres <= 0.0 {
+        return message::none_required().to_owned();
+    }
     format!("{} {}", LENGTH.rounded_up(metres), LENGTH.name())
 }
 
@@ -73,5 +88,6 @@ mod tests {
     fn required_widths_are_rounded_up() {
         assert_eq!(required_width(0.0371), "38 mm");
         assert_eq!(required_width(0.1 + 1e-12), "100 mm");
+        assert_eq!(required_width(0.0), "none required");
     }
 }

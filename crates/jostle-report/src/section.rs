@@ -5,7 +5,9 @@ use jostle_section::{Analysis, EndCurve, Section, SectionSurvey};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
-use crate::format::{FORCE, HEIGHT, LENGTH, MOMENT, STRESS, fixed, in_unit, significant};
+use crate::format::{
+    FORCE, HEIGHT, LENGTH, MOMENT, STRESS, Units, fixed, in_unit, significant, units,
+};
 use crate::message;
 use crate::scale::Scale;
 
@@ -37,6 +39,7 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
                     (theme_button())
                 }
                 main {
+                    @if let Some(verdict) = verdict(surveys) { p.verdict { (verdict) } }
                     @for survey in surveys { (sheet(survey)) }
                     p class="quiet" {
                         (message::rotations_of_a_member_end())
@@ -47,6 +50,39 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
         }
     };
     page.into_string()
+}
+
+/// The result in a sentence: where the sections yield, by fibre analysis if there is one.
+fn verdict(surveys: &[SectionSurvey]) -> Option<String> {
+    let weaker = |survey: &SectionSurvey| {
+        let ends = match &survey.analysis {
+            Ok(analysis) => &analysis.ends,
+            Err(_) => &survey.formula,
+        };
+        let sides = survey
+            .sides()
+            .iter()
+            .map(|side| ends.sides[side.index()].yielding);
+        sides.min_by(|a, b| a.force.total_cmp(&b.force))
+    };
+    let moment = |corner: &Corner| in_unit(MOMENT, corner.force, 0);
+    if let [survey] = surveys {
+        let end = weaker(survey)?;
+        let rotation = fixed(end.deformation * 1e3, 2);
+        return Some(message::section_yields(
+            &survey.name,
+            moment(&end),
+            rotation,
+        ));
+    }
+    let all = || surveys.iter().filter_map(weaker);
+    let least = all().min_by(|a, b| a.force.total_cmp(&b.force))?;
+    let most = all().max_by(|a, b| a.force.total_cmp(&b.force))?;
+    Some(message::sections_yield(
+        surveys.len(),
+        moment(&least),
+        moment(&most),
+    ))
 }
 
 fn sheet(survey: &SectionSurvey) -> Markup {
@@ -143,7 +179,12 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
         1.12 * largest(|point| point.force).max(fit.yielding.force),
     );
     let [left, top, width, height] = AREA;
-    let x = Scale::new([0.0, far], [left, left + width], 1e-3, 5.0);
+    // An inch is 0.0254 m.
+    let (unit, unit_name) = match units() {
+        Units::Si => (1e-3, "1/km"),
+        Units::Us => (1e-3 / 0.0254, "10⁻³/in"),
+    };
+    let x = Scale::new([0.0, far], [left, left + width], unit, 5.0);
     let y = Scale::new([0.0, high], [top + height, top], MOMENT.size(), 5.0);
     let place = |corner: &Corner| [x.at(corner.deformation), y.at(corner.force)];
     let path = |points: &[Corner]| {
@@ -162,7 +203,7 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
             g class="grid" {
                 (x.across([top, top + height]))
                 (y.up([left, left + width]))
-                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { (message::curvature_1_km()) }
+                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { (message::curvature_in_unit(unit_name)) }
                 text x="14" y=(top + height / 2.0) text-anchor="middle" transform={ "rotate(-90 14 " (top + height / 2.0) ")" } { (message::moment_kn_m()) }
             }
             path class="line" style="--c:var(--c0)" d=(path(&curve.points)) {}

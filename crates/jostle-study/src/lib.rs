@@ -10,6 +10,7 @@ mod case;
 pub mod classes;
 pub mod dataset;
 mod design;
+mod key_words;
 mod layout;
 mod measures;
 mod ready_made;

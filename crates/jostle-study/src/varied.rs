@@ -24,6 +24,18 @@ pub struct Varied {
 }
 
 impl Varied {
+    /// Its values and the value of the model, of a factor that is named already.
+    #[must_use]
+    pub fn values_in_words(&self) -> String {
+        let own = if self.own.is_empty() {
+            "not stated in the model".to_owned()
+        } else {
+            format!("in the model {}", self.own)
+        };
+        let range = self.range.replace("false, true", "no, yes");
+        format!("{range}; {own}")
+    }
+
     /// Keys, values, and the value of the model, in one line.
     #[must_use]
     pub fn text(&self) -> String {

@@ -394,7 +394,7 @@ messages! {
     // members
     columns_and_beams = "Columns and beams";
     capacity_by_with_the_strengths(source) = "Capacity by {source}, with the strengths of the sections (strength: characteristic, mean or design), which moments of hinges from sections have as well. Bending: moment capacity of the section under the axial force of the same instant. Ratios above 1 are beyond the capacity. summary.json and capacity.parquet also have the other rules.";
-    rotations_of_yielding_ends_chord = "Rotations of yielding ends: chord rotation by EN 1998-3 (DL, SD, NC), plastic rotation by ASCE 41 (IO, LS, CP), and crushing of the section; in this order, as far as they apply.";
+    rotations_of_yielding_ends_chord = "Rotations of yielding ends: chord rotation by EN 1998-3 (DL damage limitation, SD significant damage, NC near collapse), plastic rotation by ASCE 41 (IO immediate occupancy, LS life safety, CP collapse prevention), and crushing of the section; in this order, as far as they apply.";
     greatest_forces_of_every_member = "Greatest forces of every member, by the greatest ratio where capacities are known, otherwise struck columns first, then by shear. Axial forces are positive in tension; shear and moment are the greatest of both ends and of both sides of a struck point, either sign. Damping forces are no part of shears and moments.";
     greatest_of_both_planes_of_bending = "In a space frame they are the greatest of both planes of bending.";
     during_the_impact(left, right, start) = ", during the impact of {left} and {right} that starts at {start}";
@@ -713,7 +713,6 @@ messages! {
     moment_against_curvature_analysis(side) = "Moment against curvature{side}: analysis, and the trilinear curve of equal area (dashed).";
     cross_section_with_its_bars = "Cross-section with its bars";
     moment_against_curvature(side) = "Moment against curvature{side}";
-    curvature_1_km = "curvature [1/km]";
     moment_kn_m = "moment [{kN·m}]";
 
     // selection
@@ -1179,7 +1178,7 @@ messages! {
 
     // rotation_levels
     levels_of_members = "Members against stated limits";
-    members_beyond_levels(name, members, io, ls, cp) = "{name}: of {members} members with limits of the rotation of their hinges, {io} went beyond IO, {ls} beyond LS and {cp} beyond CP.";
+    members_beyond_levels(name, members, io, ls, cp) = "{name}: of {members} members with limits of the rotation of their hinges, {io} went beyond IO (immediate occupancy), {ls} beyond LS (life safety) and {cp} beyond CP (collapse prevention).";
     first_levels_of_members(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
     worst_level_first = "The end of each member that came furthest, the highest level first; limits are those of the model.";
     beyond_level = "beyond";
@@ -1215,7 +1214,7 @@ messages! {
     keeps_all = "meets all conditions";
     least_of_front = "least";
     trade_off_against(objective, left) = "Trade-off: {objective} against {left}";
-    line_joins_unbeaten_trials(condition) = "The line joins the trials of the Pareto front. Condition: {condition}.";
+    line_joins_unbeaten_trials(condition) = "The line joins the trials that no other trial beats in both. Condition: {condition}.";
     course_of_the_search = "Course of the search";
     least_objective_so_far = "The least objective among the trials so far that meet all conditions.";
     trial_axis = "trial";
@@ -1271,7 +1270,7 @@ messages! {
     pounding_event = "pounding";
     fragility_in_words(event, intensity, medians) = "Fragility of {event}, median {intensity}: {medians}.";
     bands_hold(method, percent, fits, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits.{left_out}";
-    bands_of_few_records(method, percent, fits, records, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits with {records} distinct record(s): how much other records would differ is not in them, which is usually the greatest part. Take seven records or more.{left_out}";
+    bands_of_few_records(method, percent, fits, records, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits (distinct records: {records}). How much other records would differ is not in them, which is usually the greatest part. Take seven records or more.{left_out}";
     median_outside_of_intensities = "the median lies outside of the intensities computed";
     extrapolated = ", outside of the intensities computed";
     probability_of(event) = "Probability of {event}";
@@ -1284,7 +1283,25 @@ messages! {
     greatest_force_of_cases(force) = "; the greatest force is {force} {kN}";
     design_word = "design";
     needed_gap = "needed";
-    gap_needed_at(name, levels, gaps, of_all) = "Gap needed at {name} {levels}: {gaps} {mm}{of_all}.";
+    to_a_range = " to ";
+    show_all_members(count) = "Show all {count} members";
+    sezen_and_moehle = "Sezen and Moehle";
+    gap_needed_of_suite(needed, record, there) = " The greatest gap needed is {needed} ({record}); the gap is {there}.";
+    none_required = "none required";
+    gap_needed_at(name, widths, of_all) = "Gap needed over {name}: {widths}{of_all}.";
+    width_at_level(width, level) = "{width} {mm} at {level}";
+    matters_most(factors) = "What matters most: {factors}.";
+    matters_for(result, factors) = "for {result} {factors}";
+    then_of = ", then ";
+    impacts_from_intensity(name, value) = "The buildings touch from {name} {value} on.";
+    impacts_at_every_intensity(name, value) = "The buildings touch at every {name} of the study, {value} and more.";
+    one_law_rebounds(law, force, restitution) = "{law}: peak force {force}; the masses rebound with {restitution} of their closing speed.";
+    laws_differ(count, force, most_force, restitution, most_restitution) = "Peak force of {count} laws {force} to {most_force}; the masses rebound with {restitution} to {most_restitution} of their closing speed.";
+    section_yields(name, moment, rotation) = "{name} yields at {moment} {kN·m}, an end rotation of {rotation} mrad.";
+    sections_yield(count, least, most) = "{count} sections yield at {least} to {most} {kN·m}.";
+    riccati_keeps(digits, step) = "The Riccati recursion keeps at least {digits} of 16 digits at steps down to {step} ms.";
+    classes_answer(least, most) = "With pounding, damage needs {least} to {most} times the intensity that it needs without.";
+    curvature_in_unit(unit) = "curvature [{unit}]";
     the_greatest_of_combinations(count) = ", the greatest of {count} combinations";
     more_than(width) = "> {width}";
     at_most_width(width) = "≤ {width}";
@@ -1297,7 +1314,7 @@ messages! {
     share_of_the_variance = "share of the variance";
     how_much_factors_matter = "how much every factor matters";
     sensitivity_of_results = "Sensitivity";
-    sobol_indices_remark = "Shares of the variance (Sobol indices): by itself, and together with all others; lines are 90 % limits of resampled estimates.";
+    sobol_indices_remark = "Shares of the variance (Sobol indices): by itself, and together with all others; lines are 90 % limits of resampled estimates. Shares below zero are scatter of the estimate and mean none.";
     morris_remark = "Elementary effects of moving a factor over its range (Morris): mean of absolute values, and standard deviation, which shows interactions and curvature.";
     tornado_remark(low, high) = "Tornado: every factor by itself at its {low} % and {high} % quantile, the others in the middle.";
     given_data_remark = "First order: share of the variance that the means over classes of one input explain, at most 20 classes with equally many cases, without its bias. Rank correlation (Spearman): sign and strength of a monotonic trend.";

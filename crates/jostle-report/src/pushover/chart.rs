@@ -135,10 +135,14 @@ impl Chart {
     /// Names of the points that matter.
     fn names(&self, curve: &Pushover) -> Markup {
         let mut named: Vec<(&str, &PushPoint, [f64; 2], &str)> = Vec::new();
-        if let Some(point) = curve.first(Stage::Cracked) {
+        let yields = curve.first(Stage::Yielded);
+        // Where both are one point, it has one name.
+        let cracks = curve.first(Stage::Cracked);
+        let cracks = cracks.filter(|point| yields.is_none_or(|other| other.roof > point.roof));
+        if let Some(point) = cracks {
             named.push((message::first_crack(), point, [10.0, 16.0], "start"));
         }
-        if let Some(point) = curve.first(Stage::Yielded) {
+        if let Some(point) = yields {
             named.push((message::first_yield(), point, [10.0, 18.0], "start"));
         }
         if !named.is_empty() {

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
+use crate::format;
 use crate::message;
 use crate::scale::Scale;
 
@@ -86,7 +87,7 @@ pub(super) fn figure(bars: &Bars) -> Markup {
                         @if let Some(limits) = bar.limits {
                             line.study-limits x1=(format!("{:.1}", px(limits[index][0]))) x2=(format!("{:.1}", px(limits[index][1]))) y1=(top + 5.5) y2=(top + 5.5) {}
                         }
-                        text x=(WIDTH - RIGHT + 6.0) y=(top + 9.5) { (number(*end)) }
+                        text x=(WIDTH - RIGHT + 6.0) y=(top + 9.5) { (beside(*end, &bars.value.unit)) }
                     }
                 }
                 line.study-axis x1=(px(bars.centre)) x2=(px(bars.centre)) y1=(TOP - 4.0) y2=(below) {}
@@ -94,6 +95,14 @@ pub(super) fn figure(bars: &Bars) -> Markup {
                 text x=(LEFT + 0.5 * (WIDTH - LEFT - RIGHT)) y=(height - 6.0) text-anchor="middle" { (bars.value.label()) }
             }
         }
+    }
+}
+
+/// A value beside its bar; shares have three decimals.
+fn beside(value: f64, unit: &str) -> String {
+    match unit.is_empty() && value.abs() < 1.0 {
+        true => format::fixed(value, 3),
+        false => number(value),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::text::in_words;
 use jostle_io::shown::ACCELERATION;
 use jostle_io::{write_atomically, write_columns_parquet};
 use jostle_report::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
@@ -118,12 +119,15 @@ impl Comparison {
     #[must_use]
     pub fn page(&self) -> String {
         let [data, data_title, map] = &self.files;
-        let histories: Vec<ComparedHistory<'_>> = self
-            .columns
-            .iter()
-            .map(|column| ComparedHistory {
+        let names = self.columns.iter();
+        let names: Vec<String> = names
+            .map(|column| in_words(&column.computed_name))
+            .collect();
+        let columns = self.columns.iter().zip(&names);
+        let histories: Vec<ComparedHistory<'_>> = columns
+            .map(|(column, computed_name)| ComparedHistory {
                 measured_name: &column.measured_name,
-                computed_name: &column.computed_name,
+                computed_name,
                 unit: column.unit,
                 measured: &column.measured,
                 computed: &column.computed,

@@ -9,6 +9,23 @@ use super::Comparison;
 use crate::numbers::counted;
 use crate::style::{BOLD, styled};
 
+/// A column of a history in words: `A.floor1.displacement_m` is "A, floor 1, displacement".
+pub(super) fn in_words(column: &str) -> String {
+    const UNITS: [&str; 8] = ["_n_m", "_m_s2", "_m_s", "_n_s", "_n", "_m", "_j", "_rad"];
+    let plain = UNITS
+        .iter()
+        .find_map(|unit| column.strip_suffix(unit))
+        .unwrap_or(column);
+    let parts = plain.split('.').map(|part| {
+        let numbered = ["floor", "contact", "link"].iter().find_map(|kind| {
+            let number = part.strip_prefix(kind)?.parse::<usize>().ok()?;
+            Some(format!("{kind} {number}"))
+        });
+        numbered.unwrap_or_else(|| part.replace('_', " "))
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
 impl Comparison {
     /// What agrees, in sentences.
     #[must_use]
@@ -20,8 +37,9 @@ impl Comparison {
             .filter_map(|column| Some((column.score.correlation?, &column.computed_name)));
         if let Some((least, name)) = worst.min_by(|a, b| a.0.total_cmp(&b.0)) {
             sentences.push(format!(
-                "{}; the least correlation is {least:.4}, of {name}.",
-                counted(self.columns.len(), "history").replace("historys", "histories")
+                "Correlation with the measurements is {least:.3} or better in {}; worst: {}.",
+                counted(self.columns.len(), "history").replace("historys", "histories"),
+                in_words(name)
             ));
         }
         for impacts in &self.impacts {

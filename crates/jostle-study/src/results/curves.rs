@@ -137,6 +137,27 @@ impl Results<'_> {
     }
 
     /// Demand over intensity, one curve for every combination of the other factors, with fractiles.
+    /// Says from which intensity on there are impacts.
+    fn say_first_impact(&mut self, intensity: &str) {
+        let impacts = self.table.column("impact_count");
+        let cases = self.table.column(intensity).iter().zip(impacts);
+        let known = cases.filter_map(|(value, count)| Some(((*value)?, (*count)?)));
+        let least = |touch: bool| {
+            let own = known.clone().filter(|(_, count)| (*count > 0.0) == touch);
+            own.map(|(value, _)| value).min_by(f64::total_cmp)
+        };
+        let (axis, size) = words::axis(intensity);
+        let shown = |value: f64| jostle_report::with_unit(size * value, &axis.unit);
+        let said = match least(true) {
+            Some(from) if least(false).is_none_or(|free| free >= from) => {
+                message::impacts_at_every_intensity(&axis.name, shown(from))
+            }
+            Some(from) => message::impacts_from_intensity(&axis.name, shown(from)),
+            None => return,
+        };
+        self.said.push(said);
+    }
+
     pub(super) fn idas(&mut self) -> Result<Vec<Section>, StudyError> {
         let mut sections = Vec::new();
         for (number, wanted) in self.study.file.idas.clone().iter().enumerate() {
@@ -154,6 +175,9 @@ impl Results<'_> {
                         })
                 })
                 .collect();
+            if number == 0 {
+                self.say_first_impact(&wanted.intensity);
+            }
             let groups = self.grouped(&self.others(&along));
             let (x, x_size) = words::axis(&wanted.demand);
             let (y, y_size) = words::axis(&wanted.intensity);

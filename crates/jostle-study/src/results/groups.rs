@@ -6,6 +6,7 @@ use jostle_io::FactorValues;
 
 use super::Results;
 use crate::design::Choice;
+use crate::key_words::{key_in_words, label_in_words};
 use crate::layout::Kind;
 
 impl Results<'_> {
@@ -31,16 +32,17 @@ impl Results<'_> {
                 let factor = &study.file.factors[*factor];
                 match &factor.values {
                     FactorValues::Listed(levels) => {
-                        let label = &levels[*entry].label;
+                        let label = label_in_words(&levels[*entry].label);
+                        let name = key_in_words(&factor.name);
                         if factor.name.ends_with("record") || factor.name == "motion" {
-                            label.clone()
+                            label.to_owned()
                         } else if factor.multiplies {
-                            format!("{} × {label}", factor.name)
+                            format!("{name} × {label}")
                         } else {
-                            format!("{} {label}", factor.name)
+                            format!("{name} {label}")
                         }
                     }
-                    FactorValues::Drawn(_) | FactorValues::Table(_) => factor.name.clone(),
+                    FactorValues::Drawn(_) | FactorValues::Table(_) => key_in_words(&factor.name),
                 }
             });
             parts.collect::<Vec<_>>().join(", ")

@@ -25,6 +25,7 @@ use jostle_report::message;
 use jostle_report::{Axis, Section, StudyPage, render_study};
 
 use crate::dataset::{Table, visit_parts};
+use crate::key_words::{key_in_words, label_in_words};
 use crate::layout::Kind;
 use crate::runner::run_folder;
 use crate::study::{Study, StudyError};
@@ -291,7 +292,7 @@ impl Results<'_> {
         facts.extend(
             varied(study)
                 .into_iter()
-                .map(|one| (one.name.clone(), one.text())),
+                .map(|one| (capital(&key_in_words(&one.name)), one.values_in_words())),
         );
         let runs = study.file.histories.iter().filter_map(|case| {
             let choices = study.design.choices(*case, &study.file.factors);
@@ -303,8 +304,8 @@ impl Results<'_> {
                 .map(|(factor, choice)| {
                     format!(
                         "{} {}",
-                        factor.name,
-                        crate::design::value_of(factor, choice).2
+                        key_in_words(&factor.name),
+                        label_in_words(&crate::design::value_of(factor, choice).2)
                     )
                 })
                 .collect();
@@ -325,6 +326,13 @@ impl Results<'_> {
             files: self.files,
         }
     }
+}
+
+/// A text as it begins a line.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters.clone()).collect()
 }
 
 /// The cases with their own report.

@@ -20,7 +20,7 @@ const DRAWN: [&str; 3] = ["ABS", "SRSS", "DDC"];
 /// Groups of cases that are drawn at most, one for each colour.
 const MOST_GROUPS: usize = 7;
 /// Intensities whose gap the head of the page names at most.
-const SAID_LEVELS: usize = 5;
+const SAID_LEVELS: usize = 2;
 /// Least distance of horizontal lines with names of their own, as a share of the axis.
 const LEAST_APART: f64 = 0.06;
 
@@ -149,17 +149,11 @@ impl Results<'_> {
         let named = spread(levels.len(), SAID_LEVELS);
         let join = |text: &dyn Fn(usize) -> String| {
             let all: Vec<String> = named.iter().map(|at| text(*at)).collect();
-            all.join(" / ")
+            all.join(message::to_a_range())
         };
         self.said.push(message::gap_needed_at(
             &axis.name,
-            format!(
-                "{} {}",
-                join(&|at| jostle_report::with_unit(size * levels[at], "")),
-                axis.unit
-            )
-            .trim_end(),
-            join(&|at| width(most[at])),
+            join(&|at| message::width_at_level(width(most[at]), intensity(levels[at]))),
             match groups.len() {
                 1 => String::new(),
                 count => message::the_greatest_of_combinations(count),

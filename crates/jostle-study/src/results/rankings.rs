@@ -6,6 +6,7 @@ use jostle_report::message;
 use jostle_report::{Axis, Bar, Bars, Section};
 
 use super::{Results, words};
+use crate::key_words::key_in_words;
 use crate::layout::Kind;
 use crate::statistics::{elementary_effects, given_data, sobol_indices};
 use crate::study::{Study, StudyError};
@@ -66,6 +67,7 @@ impl Results<'_> {
         let mut lines: Vec<Line> = Vec::new();
         let mut bars: Vec<Bars> = Vec::new();
         let mut silent: Vec<String> = Vec::new();
+        let mut most: Vec<String> = Vec::new();
         for response in responses {
             let values = self.table.column(response).to_vec();
             let (axis, size) = words::axis(response);
@@ -131,6 +133,15 @@ impl Results<'_> {
                 _ => line.numbers[0],
             };
             sort_by(&mut response_lines, |a, b| weight(b).total_cmp(&weight(a)));
+            most.push(message::matters_for(
+                &axis.name,
+                response_lines
+                    .iter()
+                    .take(2)
+                    .map(|line| key_in_words(&line.factor))
+                    .collect::<Vec<_>>()
+                    .join(message::then_of()),
+            ));
             let shares = sampled || kind == DesignKind::Saltelli;
             let size = if shares { 1.0 } else { size };
             bars.push(Bars {
@@ -147,7 +158,7 @@ impl Results<'_> {
                 bars: response_lines
                     .iter()
                     .map(|line| Bar {
-                        name: line.factor.clone(),
+                        name: key_in_words(&line.factor),
                         ends: line.numbers.map(|value| size * value),
                         limits: line.limits,
                     })
@@ -155,6 +166,9 @@ impl Results<'_> {
                 legend: legend.map(|name| name.replace('_', " ")),
             });
             lines.extend(response_lines);
+        }
+        if !most.is_empty() {
+            self.said.push(message::matters_most(most.join("; ")));
         }
         let limit = |which: usize, end: usize| {
             let all = lines.iter().map(|line| Some(line.limits?[which][end]));

@@ -7,6 +7,8 @@ use jostle_io::shown::{ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS
 use jostle_report::Axis;
 use jostle_report::message;
 
+use crate::key_words::key_in_words;
+
 /// Endings of column names: the size of the display unit, and its name.
 fn units() -> [(&'static str, f64, &'static str); 10] {
     let form = |ending, shown: Shown| (ending, shown.of(1.0), shown.name());
@@ -56,7 +58,7 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
         "closing_peak" => message::greatest_closing_axis().into(),
         "pga" | "motion.pga" => message::peak_ground_acceleration_axis().into(),
         "gap.width" => message::gap().into(),
-        other => other.replace(['_', '.'], " "),
+        other => key_in_words(other),
     };
     let axis = Axis {
         name,

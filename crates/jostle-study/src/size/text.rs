@@ -6,6 +6,7 @@ use std::path::Path;
 use jostle_io::shown::{ACCELERATION, ENERGY, FORCE, LARGE_DASHPOT, LENGTH, MASS, MOMENT, SPEED};
 
 use super::SizeResults;
+use crate::key_words::key_in_words;
 
 /// Unit in which numbers with the end of such a name are shown, and its size.
 pub(super) fn shown(suffix: &str) -> (&'static str, f64) {
@@ -84,17 +85,20 @@ pub(super) fn in_words(text: &str) -> String {
         (">=", "≥"),
         ("==", "="),
     ];
-    let replaced = WORDS.iter().fold(text.to_owned(), |text, (name, words)| {
-        text.replace(name, words)
-    });
-    let mut words = String::new();
-    let letters: Vec<char> = replaced.chars().collect();
-    for (index, letter) in letters.iter().enumerate() {
-        let after = letters.get(index + 1);
-        let joins = *letter == '_' || *letter == '.' && after.is_some_and(|c| c.is_alphabetic());
-        words.push(if joins { ' ' } else { *letter });
-    }
-    words
+    // The gap, where there is one.
+    let text = text.replace("gap[0].", "gap.");
+    let replaced = WORDS
+        .iter()
+        .fold(text, |text, (name, words)| text.replace(name, words));
+    // Keys among numbers and signs.
+    let is_key = |word: &&str| word.contains(char::is_alphabetic);
+    let words = replaced
+        .split(' ')
+        .map(|word| match Some(word).filter(is_key) {
+            Some(key) => key_in_words(key),
+            None => word.to_owned(),
+        });
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// A value as written into the model, with five digits.

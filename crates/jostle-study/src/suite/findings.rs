@@ -43,7 +43,7 @@ pub(super) fn findings(records: &[RecordResult]) -> Vec<Finding> {
         let is_named = same.len() == 1 && finding.text.contains(worst.motion);
         if !is_named && (differ || same.len() < records.len()) {
             let (count, of) = (same.len(), records.len());
-            finding.text += &format!(" – {}, in {count} of {of} records", worst.motion);
+            finding.text += &format!(" ({}; in {count} of {of} records)", worst.motion);
         }
         merged.push(finding);
     }
@@ -136,9 +136,9 @@ mod tests {
         assert_eq!(
             texts,
             [
-                "J2 9 – b, in 1 of 3 records",
-                "J1 3 – b, in 2 of 3 records",
-                "J1 1.5 – c, in 1 of 3 records"
+                "J2 9 (b; in 1 of 3 records)",
+                "J1 3 (b; in 2 of 3 records)",
+                "J1 1.5 (c; in 1 of 3 records)"
             ]
         );
         let alike = [0, 1].map(|_| record("a", json!([check(drift, "note", 2.0, "J1")])));

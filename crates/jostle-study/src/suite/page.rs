@@ -158,7 +158,31 @@ impl SuiteResults {
         {
             return message::suite_of_no_gap(done.len());
         }
-        message::suite_pounds(pounding, done.len())
+        message::suite_pounds(pounding, done.len()) + &self.gap_needed_in_words(&done)
+    }
+
+    /// The greatest gap that a record needs beside the gap there is, of models with one gap.
+    fn gap_needed_in_words(&self, done: &[&Value]) -> String {
+        let Some([gap]) = done
+            .first()
+            .and_then(|record| record["gaps"].as_array())
+            .map(Vec::as_slice)
+        else {
+            return String::new();
+        };
+        let all = headlines(self);
+        let needed = all
+            .iter()
+            .find(|(_, quantity)| quantity.name.ends_with(".closing_without_contact_m"));
+        match (needed, gap["width_m"].as_f64()) {
+            (Some((_, needed)), Some(there)) if needed.maximum > 0.0 => {
+                let record = self.records[needed.maximum_record].motion();
+                let shown = |value: f64| format!("{} {}", LENGTH.rounded_up(value), LENGTH.name());
+                let there = jostle_report::with_unit(LENGTH.of(there), LENGTH.name());
+                message::gap_needed_of_suite(shown(needed.maximum), record, there)
+            }
+            _ => String::new(),
+        }
     }
 
     /// Governing values of what decides, each the greatest of all gaps or buildings: force, gap, drift, damage.

@@ -98,7 +98,7 @@ fn rules_of_a_study_are_those_of_the_gap() {
     for head in [
         "<td>≤ 150</td>",
         "ABS [mm]",
-        "Gap needed at peak ground acceleration",
+        "Gap needed over peak ground acceleration",
     ] {
         assert!(page.contains(head), "{head}");
     }
