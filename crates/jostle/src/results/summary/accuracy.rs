@@ -60,7 +60,7 @@ impl PromiseSummary {
             (None, Some(from)) => {
                 let earlier = match self.met {
                     Some(true) => "earlier peaks are reliable",
-                    _ => "impacts before that agree between two step sizes",
+                    _ => "earlier impacts agree between two step sizes",
                 };
                 format!("accuracy: {estimate}; sensitive from t = {from:.3} s; {earlier}")
             }
