@@ -9,23 +9,23 @@ const HEAD: &str = "# Checks that always run
 
 Written by `jostle schema --checks --markdown`; `jostle schema --checks` prints the same as JSON.
 
-Every model and every result is compared with the limits below. A check that is passed says nothing. What is found is in
+Every model and every result is compared with the limits below. A passed check prints nothing. Findings appear in
 `jostle check` (the model), in `jostle run` (at most three lines, worst first), on the first page of the report as *Assumptions and
 limits of this result*, in `summary.json` as `checks`, and in Python as `run.checks`. The column `result_checks` of a study counts the
 checks B1 to B12 of a case that gave a note or a warning.
 
-A *warning* means that the result does not hold as it stands. A *note* is worth a look before the result is used. A *remark* is an
-assumption worth knowing; `jostle check` prints it, `jostle run` does not.
+A *warning* means that the result is not valid without changes. A *note* should be read before the result is used. A *remark* is an
+assumption to be aware of; `jostle check` prints it, `jostle run` does not.
 
-To silence a check, name it in the model file; the report then lists it. An identifier stands for all parts of a check:
+To hide a check, name it in the model file; the report then lists it. An identifier hides all parts of a check:
 
 ```toml
 [report]
 silence = [\"A12\", \"residual-drift\"]
 ```
 
-Sources: at least two publications agree on a limit; otherwise it says \"judgement\", that of the authors. \"The model file\" means that
-the file states the limit, or names the rule that gives it. Limits mark where to look, not what is allowed.
+Sources: at least two publications agree on a limit; otherwise the source is \"judgement\", that of the authors. \"The model file\" means that
+the file states the limit, or names the rule that gives it. Limits show where to look, not what is allowed.
 ";
 
 /// All checks as a page of Markdown.

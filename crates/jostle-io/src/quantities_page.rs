@@ -11,7 +11,7 @@ Written by `jostle schema --results --markdown`; `jostle schema --results` print
 explains the files. Names end with the unit. *Summary*: a key of `summary.json`. *Table*: a column of the Parquet file of the same
 name. *Study*: a column in the table of a study.
 
-*Compared*: in tables the same quantity of the run without contact stands beside it, such as `storey_drift_peak_without_contact`, and the
+*Compared*: tables also contain the same quantity of the run without contact, such as `storey_drift_peak_without_contact`, and the
 ratio of the two absolute values, such as `storey_drift_peak_amplification` (absent if the value without contact is zero). In `summary.json` these are in
 `without_contact` and `amplification`. In studies they are columns with `without_contact = true`.
 ";

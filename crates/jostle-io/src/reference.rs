@@ -17,34 +17,34 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Read,
         "`motion.read`",
-        "For files that cannot be understood without help. See [Ground-motion records](motions.md).",
+        "For files whose layout is not detected. See [Ground-motion records](motions.md).",
     ),
     (
         Section::Coherency,
         "`motion.coherency`",
-        "Ground motions that lose coherency with distance.",
+        "Ground motions whose coherency decreases with distance.",
     ),
     (Section::Match, "`motion.match`", ""),
     (
         Section::Spectrum,
         "`motion.match.spectrum`",
-        "One of the design spectra.",
+        "A code design spectrum.",
     ),
     (
         Section::Building,
         "`[[building]]`",
-        "From left to right. These keys belong to every building.",
+        "The buildings from left to right. Every building has these keys.",
     ),
     (
         Section::OwnMotion,
         "`[building.motion]`",
-        "The keys of `[motion]` about the record and its scaling, and this one.",
+        "The keys of `[motion]` about the record and its scaling, and this key.",
     ),
     (Section::Frame, "`[[building]]` with `kind = \"frame\"`", ""),
     (
         Section::Shear,
         "`[[building]]` with `kind = \"shear\"`",
-        "And with `kind = \"frame\"` and a `plan`.",
+        "Also with `kind = \"frame\"` and a `plan`.",
     ),
     (Section::FloorPlan, "`plan` of a floor, in a list", ""),
     (
@@ -61,22 +61,22 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::FrameBay,
         "`[[building.brace]]` and `[[building.infill]]` of a plane frame",
-        "Of a frame at a line of a plan as well.",
+        "Also of a frame at a line of a plan.",
     ),
     (
         Section::GridBay,
         "`[[building.brace]]` and `[[building.infill]]` of a space frame",
-        "Without both x and y they stand only in bays within the plan of their floor, where there are joints.",
+        "Without both x and y, they are only in bays within the plan of their floor, where there are joints.",
     ),
     (
         Section::Brace,
         "`[[building.brace]]`",
-        "Between the joints of a frame, also of a frame at a line of a plan and of a space frame. A brace bears axial force alone and pushes and pulls at its joints; with `axial = \"flexible\"` it stretches and shortens columns.",
+        "Between the joints of a frame, also of a frame at a line of a plan and of a space frame. A brace carries axial force only and transfers it to its joints; with `axial = \"flexible\"` this force also changes the length of columns.",
     ),
     (
         Section::Infill,
         "`[[building.infill]]`",
-        "A panel is two compression-only struts between opposite joints. Without hinge they stay elastic: compare their greatest force with the strength of the panel. Modes and damping ratios count both with half their stiffness, since one of two acts.",
+        "A panel is two compression-only struts between opposite joints. Without hinge they are elastic: compare their peak force with the strength of the panel. Modes and damping ratios use half the stiffness of each strut, since only one of the two acts at a time.",
     ),
     (
         Section::InfillStrength,
@@ -86,7 +86,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::InfillOutOfPlane,
         "`out_of_plane` of `[[building.infill]]`",
-        "`parts` of the results have its `out_of_plane_ratio`.",
+        "`parts` in the results contains its `out_of_plane_ratio`.",
     ),
     (
         Section::InfillBackbone,
@@ -101,13 +101,13 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::FrameWall,
         "`[[building.wall]]`",
-        "Of a plane frame, also of a frame at a line of a plan. A wall is a wide column with a rigid cross-section: beams span between faces and turn with them. See [Walls and coupling beams](how-to/walls.md).",
+        "For a plane frame, also one at a line of a plan. A wall is a wide column with a rigid cross-section: beams span between faces and rotate with them. See [Walls and coupling beams](how-to/walls.md).",
     ),
     (Section::WallHinge, "`hinge` of a wall", ""),
     (
         Section::CouplingBeam,
         "`[[building.coupling_beam]]`",
-        "Beams between walls whose forces are reported; what a table leaves to `[[building.beam]]` are ordinary beams between faces. A coupling beam yields in shear: its shear deformation is a spring with the rule and the corners of `hinge`.",
+        "Beams between walls whose forces are reported. Beams between walls that are defined by `[[building.beam]]` are ordinary beams between faces. A coupling beam yields in shear: its shear deformation is a spring with the rule and the corners of `hinge`.",
     ),
     (
         Section::Sliding,
@@ -117,12 +117,12 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::SpaceFrame,
         "`[[building]]` with `kind = \"space-frame\"`",
-        "And the keys of `kind = \"shear\"`, `frame` excepted. See [Space frames](how-to/space-frames.md).",
+        "And the keys of `kind = \"shear\"` except `frame`. See [Space frames](how-to/space-frames.md).",
     ),
     (
         Section::SpaceWall,
         "`[[building.wall]]` of a space frame",
-        "A wide column with a rigid cross-section: beams along it span between faces and turn with it. Its forces are those of a column. See [Walls and coupling beams](how-to/walls.md).",
+        "A wide column with a rigid cross-section: beams along it span between faces and rotate with it. Its forces are reported like those of a column. See [Walls and coupling beams](how-to/walls.md).",
     ),
     (Section::SpaceColumn, "`column` of a space frame", ""),
     (
@@ -133,19 +133,19 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Given,
         "`[[building]]` with `kind = \"given\"`",
-        "By matrices and ports, or by mass, periods and shapes; with a plan by matrices over x, y and rotation of every floor. See [From ETABS to jostle](how-to/from-etabs.md).",
+        "Given by matrices and ports, or by mass, periods and shapes; with a plan, by matrices over x, y and rotation of every floor. See [From ETABS to jostle](how-to/from-etabs.md).",
     ),
     (Section::Matrices, "`matrices` of a given building", ""),
     (Section::Port, "`ports` of a given building, each", ""),
     (
         Section::Column,
         "`column` of a frame",
-        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table names a line, storeys or `omit` has one table per storey from the ground up; otherwise every table holds for the lines and storeys that it names. A floor has a joint where a column stands below it. See [Columns that differ, set-backs and podiums](how-to/podiums.md).",
+        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table has line, storeys or `omit` gives one table per storey from the ground up; otherwise every table applies to its lines and storeys. A floor has a joint where a column is below it. See [Columns that differ, set-backs and podiums](how-to/podiums.md).",
     ),
     (
         Section::Beam,
         "`beam` of a frame",
-        "Likewise by bay and floors. Beams stand between joints: where a column is omitted, tables without `bay` leave out the beams beside it.",
+        "Likewise by bay and floors. Beams span between joints: where a column is omitted, tables without `bay` omit the adjacent beams.",
     ),
     (
         Section::Profile,
@@ -165,17 +165,17 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::FibreSteel,
         "`hinges.steel` with fibres",
-        "By Menegotto and Pinto (1973) with the exponents of Filippou, Popov and Bertero (1983): see [the rules](hysteresis.md#menegotto-pinto).",
+        "Menegotto and Pinto (1973) with the exponents of Filippou, Popov and Bertero (1983): see [the rules](hysteresis.md#menegotto-pinto).",
     ),
     (
         Section::FibreLimits,
         "`hinges.limits` with fibres",
-        "Results say when fibres first pass them; they have no part in the motion.",
+        "Results report when fibres first exceed them; they do not affect the motion.",
     ),
     (
         Section::RigidEnds,
         "`rigid_ends` of a frame",
-        "The same lengths at all joints. As a number it is a share of half depths: beams are rigid over half the deeper column at the joint, columns over half the deeper beam. Forces and hinges of members are those where they begin to bend.",
+        "The same lengths at all joints. A number is a fraction of half depths: beams are rigid over half the depth of the deeper column at the joint, columns over half the depth of the deeper beam. Member forces and hinges are at the ends of the flexible lengths.",
     ),
     (
         Section::Foundation,
@@ -242,12 +242,12 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::StoreyHinges,
         "`hinges` of a shear building",
-        "And of an element in plan.",
+        "Also of an element in plan.",
     ),
     (
         Section::StoreyHingesOfAxis,
         "`hinges.x`, `hinges.y` of a shear building with a plan, or of an element",
-        "What is not given here is that of `hinges`.",
+        "Values not given here are those of `hinges`.",
     ),
     (
         Section::Pinching,
@@ -318,7 +318,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Site,
         "`[site]`",
-        "For buildings with a plan; results do not depend on it.",
+        "For buildings with a plan; it does not affect results.",
     ),
     (Section::Analysis, "`[analysis]`", ""),
     (
@@ -345,7 +345,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Study,
         "Study file: top",
-        "A file of its own, for `jostle study`; see [Studies](studies.md).",
+        "A separate file, for `jostle study`; see [Studies](studies.md).",
     ),
     (Section::Vary, "Study file: `[[vary]]`", ""),
     (Section::Range, "Study file: `vary.range`", ""),
@@ -358,12 +358,12 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Selection,
         "Study file: `[selection]`",
-        "Whether the records are suitable for time-history analysis, by the rules of the code of the spectrum.",
+        "Checks whether the records are suitable for time-history analysis, by the code of the spectrum.",
     ),
     (
         Section::City,
         "City file: top",
-        "A file of its own, for `jostle city`; see [Which neighbours of a city collide](how-to/city.md).",
+        "A separate file, for `jostle city`; see [Which neighbours of a city collide](how-to/city.md).",
     ),
     (Section::CityInventory, "City file: `[inventory]`", ""),
     (Section::CityColumns, "City file: `inventory.columns`", ""),
@@ -390,7 +390,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Classes,
         "Classes file: top",
-        "A file of its own, for `jostle classes`; see [Fragility of classes with pounding](how-to/classes.md).",
+        "A separate file, for `jostle classes`; see [Fragility of classes with pounding](how-to/classes.md).",
     ),
     (
         Section::ClassesSide,
@@ -403,7 +403,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Comparison,
         "Map of a comparison: top",
-        "A file of its own, for `jostle compare`; see [Compare with a shake-table test](how-to/shake-table.md).",
+        "A separate file, for `jostle compare`; see [Compare with a shake-table test](how-to/shake-table.md).",
     ),
     (
         Section::ComparedColumn,
@@ -422,8 +422,8 @@ const TABLES: &[(Section, &str, &str)] = &[
 pub fn model_reference() -> String {
     let mut page = String::from(
         "# The model file\n\n\
-         Written by `jostle schema --markdown`. TOML, or the same tree as JSON. A quantity is a text with a unit or a bare \
-         number in SI; `jostle new` writes a file to start from.\n",
+         Written by `jostle schema --markdown`. A file is TOML, or JSON of the same structure. A quantity is a text with a unit or a bare \
+         number in SI; `jostle new` writes an example file.\n",
     );
     for (section, place, words) in TABLES {
         // Writing to a string cannot fail.
@@ -493,17 +493,17 @@ fn ranges_heading() -> String {
         "
 ## Usual ranges
 
-A bare number is in SI, so `width = 500` is 500 m. A value outside its usual range is valid with a warning, which names
-the unit that was probably meant. A value outside the possible range is refused as a slip of units. Zero is never unusual.
-Warnings are printed by `check`, on standard error by `run` and `gap`, and stand under `notes` in `summary.json`.
+A bare number is in SI, so `width = 500` is 500 m. A value outside its usual range gives a warning, which names
+the unit that was probably meant. A value outside the possible range is rejected as a unit error. Zero is always accepted.
+Warnings are printed by `check`, on standard error by `run` and `gap`, and are listed under `notes` in `summary.json`.
 
-Also unusual: a first lateral period outside {shortest} s to {longest} s, a contact softer than a storey,
+These also give a warning: a first lateral period outside {shortest} s to {longest} s, a contact softer than a storey,
 and a scaled record whose peak is outside the range of `pga`. A run that would take more than
-some hours of computing is refused with the building, step or motion that makes it so long.
+some hours of computing is rejected, with the building, step or motion that causes it.
 
 To accept such values: `accept_unusual = true` under `[analysis]`, a list of fields such as
-`accept_unusual = [\"building[0].spans\", \"analysis.step\"]` (`analysis.step` stands for the work of a run), in Python
-`analysis={{\"accept_unusual\": True}}`, or `--accept-unusual` on the command line. Options of the command line need a
+`accept_unusual = [\"building[0].spans\", \"analysis.step\"]` (`analysis.step` accepts a long run), in Python
+`analysis={{\"accept_unusual\": True}}`, or `--accept-unusual` on the command line. Command-line options need a
 unit: `--gap 100mm`, `--pga 0.35g`.
 
 | key | where | usual | possible |
@@ -564,7 +564,7 @@ fn value(key: &Key) -> String {
         Kind::NumbersOrTable(_) => "number, or a list, or a table".into(),
         Kind::Table(_) | Kind::TableOf(_) => "table".into(),
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
-        Kind::TablePerPlace(_) => "table; or a list for some places each".into(),
+        Kind::TablePerPlace(_) => "table; or a list of tables, each for some positions".into(),
         Kind::FromTo => "number; or the first and the last".into(),
         Kind::OneOrTwo => "whole number, or two".into(),
         Kind::TextOrTable(_) => "text, or a table".into(),

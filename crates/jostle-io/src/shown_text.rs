@@ -101,10 +101,10 @@ mod tests {
 
     #[test]
     fn numbers_of_sentences_follow_the_units() {
-        let gap = "J1 ↔ J2: no impact, but the gap of 25.4 mm closes by 2.5 mm: a near miss";
+        let gap = "J1 ↔ J2: a near miss: the gap of 25.4 mm closes by 2.5 mm without impact";
         assert_eq!(
             us(gap),
-            "J1 ↔ J2: no impact, but the gap of 1.00 in closes by 0.10 in: a near miss"
+            "J1 ↔ J2: a near miss: the gap of 1.00 in closes by 0.10 in without impact"
         );
         assert_eq!(in_shown_units(gap), gap);
         assert_eq!(

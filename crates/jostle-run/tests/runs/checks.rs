@@ -1038,7 +1038,7 @@ width = "50 mm"
     for word in [
         "Assumptions and limits",
         "outside the model",
-        "P-Delta is left out",
+        "P-Delta is not included",
         "ductility",
         "one record",
     ] {

@@ -17,7 +17,7 @@ pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let place = format!("{}, storey {}", building.name, floor.floor);
                 let beyond = match drift > super::table::OUTSIDE_DRIFT {
                     true => {
-                        ": outside the model, which keeps strength and geometry of small drifts"
+                        ": outside the model, which assumes small displacements and no strength loss"
                     }
                     false => "",
                 };
@@ -48,7 +48,7 @@ pub(super) fn residual(known: &Known<'_>, tally: &mut Tally<'_>) {
             let drift = floor.response.residual_drift.abs();
             tally.add(drift, || {
                 let place = format!("{}, storey {}", building.name, floor.floor);
-                let text = format!("{place}: a drift of {:.2} % remains", 100.0 * drift);
+                let text = format!("{place}: the residual drift is {:.2} %", 100.0 * drift);
                 (place, text)
             });
         }

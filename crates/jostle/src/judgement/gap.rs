@@ -69,7 +69,7 @@ pub(super) fn near_miss(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(closing / width, || {
                 let place = gap.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: no impact, but the gap of {:.1} mm closes by {:.1} mm: a near miss",
+                    "{place}: a near miss: the gap of {:.1} mm closes by {:.1} mm without impact",
                     1e3 * width,
                     1e3 * closing
                 );

@@ -28,7 +28,7 @@ pub(super) fn indentation(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(depth, || {
             let place = gap.between.join(" ↔ ");
             let text = format!(
-                "{place}: an impact indents the floors by {:.0} mm; concrete would crush first",
+                "{place}: an impact indents the floors by {:.0} mm; concrete would crush before that",
                 1e3 * depth
             );
             (place, text)
@@ -117,7 +117,7 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(pressure / strength, || {
                 let place = gap_summary.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: {:.0} kN press a slab of {:.0} mm along {width:.1} m with {:.0} MPa, above the {:.0} MPa of its concrete: it would crush first",
+                    "{place}: {:.0} kN on a slab of {:.0} mm over {width:.1} m is a pressure of {:.0} MPa, above the concrete strength of {:.0} MPa: it would crush",
                     1e-3 * contact.peak_force_n,
                     1e3 * SLAB,
                     1e-6 * pressure,
@@ -159,7 +159,7 @@ pub(super) fn duration(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(duration / there_and_back, || {
             let place = gap.between.join(" ↔ ");
             let text = format!(
-                "{place}: the strongest impact lasts {:.1} ms, in which a wave runs along a floor of {shortest:.0} m and back {:.1} times: floors are not rigid bodies in it",
+                "{place}: the strongest impact lasts {:.1} ms; in this time a wave travels along a floor of {shortest:.0} m and back {:.1} times, so that floors are not rigid bodies",
                 1e3 * duration,
                 duration / there_and_back
             );
@@ -191,7 +191,7 @@ pub(super) fn force_spread(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add((most - least) / gap.peak_force_n, || {
             let place = gap_spread.between.join(" ↔ ");
             let text = format!(
-                "{place}: the peak force lies between {:.0} and {:.0} kN over the range of contact stiffness",
+                "{place}: the peak force is between {:.0} and {:.0} kN over the range of contact stiffness",
                 1e-3 * least,
                 1e-3 * most
             );

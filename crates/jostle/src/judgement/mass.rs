@@ -45,7 +45,7 @@ pub(super) fn beam_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             let carried = carried(frame, floor);
             tally.add(carried / line_mass, || {
                 let text = format!(
-                    "{}: the beams of floor {} carry {carried:.0} kg/m and weigh {line_mass:.0} kg/m themselves: slab, walls and live load seem to be missing",
+                    "{}: the beams of floor {} carry {carried:.0} kg/m, of which their self weight is {line_mass:.0} kg/m: slab, walls and live load seem to be missing",
                     quoted(&building.name),
                     floor + 1
                 );
@@ -80,7 +80,7 @@ pub(super) fn column_compression(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let ratio = compression * modulus / (axial * strength);
                 tally.add(ratio, || {
                     let text = format!(
-                        "{}: a column of storey {storey} carries {:.0} kN under self weight, ν = {ratio:.2} of the strength of its concrete",
+                        "{}: a column of storey {storey} carries {:.0} kN under gravity, ν = {ratio:.2}",
                         quoted(&building.name),
                         1e-3 * compression
                     );
@@ -102,7 +102,7 @@ pub(super) fn floor_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             let density = tier.mass / area;
             tally.add(density, || {
                 let text = format!(
-                    "{}: floor {} has {:.1} t on {area:.0} m², {density:.0} kg/m²; floors of buildings have 400 to 2000 kg/m²",
+                    "{}: floor {} has {:.1} t on {area:.0} m², {density:.0} kg/m²; usual floors have 400 to 2000 kg/m²",
                     quoted(&building.name),
                     floor + 1,
                     1e-3 * tier.mass
@@ -148,7 +148,7 @@ pub(super) fn struck_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(port.mass / whole, || {
                 let name = &known.system.buildings[port.building].name;
                 let text = format!(
-                    "{}: a joint of {:.1} t is struck at floor {floor}, not the floor of {:.0} t: its floors are not rigid",
+                    "{}: the impact at floor {floor} acts on a joint of {:.1} t, not on the floor of {:.0} t: its floors are not rigid",
                     quoted(name),
                     1e-3 * port.mass,
                     1e-3 * whole

@@ -44,7 +44,7 @@ pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
         };
         tally.add(ratio, || {
             let text = format!(
-                "{}: the first period before cracking is {period:.2} s; formulas of codes give {least:.2} to {most:.2} s for {heights:.1} m",
+                "{}: the uncracked first period is {period:.2} s; code formulas give {least:.2} to {most:.2} s for {heights:.1} m",
                 quoted(&building.name)
             );
             (building.name.clone(), text)

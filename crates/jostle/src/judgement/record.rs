@@ -20,10 +20,11 @@ pub(super) fn records(known: &Known<'_>, tally: &mut Tally<'_>) {
     };
     tally.add(count as f64, || {
         let what = match count {
-            1 => "one record, one sign".to_owned(),
-            _ => format!("{count} records, one sign"),
+            1 => "one record, in one direction".to_owned(),
+            _ => format!("{count} records, in one direction"),
         };
-        let text = format!("{what}: no design value; codes require 3, 7 or 11 records");
+        let text =
+            format!("{what}: not enough for a design value; codes require 3, 7 or 11 records");
         (motion.name.clone(), text)
     });
 }
@@ -39,7 +40,7 @@ pub(super) fn cut(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
     tally.add(lost, || {
         let text = format!(
-            "{}: the cut at {:.1} s drops {:.0} % of the shaking (Arias intensity) of a record of {:.1} s",
+            "{}: ending at {:.1} s omits {:.0} % of the Arias intensity of a record of {:.1} s",
             motion.name,
             motion.duration,
             100.0 * lost,

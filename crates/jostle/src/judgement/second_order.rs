@@ -13,7 +13,7 @@ pub(super) fn rigid_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
             let (height, width): (f64, f64) =
                 (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
             let text = format!(
-                "{}: {} storeys, {:.1} times as high as wide, with columns that keep their length: real ones shorten, and the building is softer",
+                "{}: {} storeys, {:.1} times as high as wide, with axially rigid columns: real columns shorten, which makes the building softer",
                 quoted(name),
                 frame.storey_heights.len(),
                 height / width
@@ -49,7 +49,7 @@ fn stability(known: &Known<'_>, tally: &mut Tally<'_>, counts: impl Fn(bool, f64
                 let place = format!("{}, storey {}", building.name, floor.floor);
                 let with = match model.gravity.p_delta {
                     true => "",
-                    false => ", and P-Delta is left out",
+                    false => ", but P-Delta is not included",
                 };
                 let text = format!("{place}: the stability coefficient θ is {theta:.2}{with}");
                 (place, text)

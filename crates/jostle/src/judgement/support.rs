@@ -4,7 +4,7 @@ use super::gap::length;
 use super::{Known, Tally, quoted};
 use crate::model::{LEVEL_TOLERANCE, PlanPoint, Structure};
 
-/// 1 for an isolated building without a range of the properties of its bearings, 0 for others.
+/// 1 for an isolated building without bounds of its bearing properties, 0 for others.
 pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
     for building in &known.model.buildings {
         let Some(isolation) = &building.base.isolation else {
@@ -12,7 +12,7 @@ pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
         };
         tally.add(f64::from(u8::from(isolation.bounds.is_none())), || {
             let text = format!(
-                "{}: one set of bearing properties; codes require lower and upper bounds, which decide stroke and force",
+                "{}: only one set of bearing properties; codes require lower and upper bounds, which govern stroke and force",
                 quoted(&building.name)
             );
             (building.name.clone(), text)
@@ -40,7 +40,7 @@ pub(super) fn soil_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
         let lowest = 0.5 * (height + below.fold(0.0, f64::max));
         tally.add(foundation.embedment - lowest, || {
             let text = format!(
-                "{}: its foundation has an embedment of {:.2} m, and a link to a wall {height:.2} m above the foundation stands for the same soil: it is counted twice",
+                "{}: its foundation has an embedment of {:.2} m, and a link to a wall {height:.2} m above the foundation represents the same soil, so the soil is counted twice",
                 quoted(&building.name),
                 foundation.embedment
             );
@@ -76,7 +76,7 @@ pub(super) fn bearing_stroke(known: &Known<'_>, tally: &mut Tally<'_>) {
                 false => "",
             };
             let text = format!(
-                "{what} of {} moves {:.0} mm{at}, beyond the {:.0} mm that its bearings allow",
+                "{what} of {} moves {:.0} mm{at}, more than the {:.0} mm capacity of its bearings",
                 quoted(&building.name),
                 1e3 * stroke,
                 1e3 * limit
@@ -107,7 +107,7 @@ pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
         let ratio = moment / (isolation.weight_n * arm);
         tally.add(ratio, || {
             let text = format!(
-                "{}: an overturning moment of {:.1} MN·m lifts the outermost bearings, which lose their compression at {:.1} MN·m",
+                "{}: an overturning moment of {:.1} MN·m puts the outermost bearings in tension, which begins at {:.1} MN·m",
                 quoted(&building.name),
                 1e-6 * moment,
                 1e-6 * isolation.weight_n * arm

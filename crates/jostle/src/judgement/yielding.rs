@@ -32,7 +32,7 @@ pub(super) fn without_p_delta(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         tally.add(1.0, || {
             let text = format!(
-                "{} yields without P-Delta: drifts past yield come out too small",
+                "{} yields without P-Delta: drifts after yield are underestimated",
                 quoted(&building.name)
             );
             (building.name.clone(), text)
@@ -57,7 +57,7 @@ pub(super) fn cracking_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
             }
             tally.add(factor, || {
                 let text = format!(
-                    "{}: cracking of the {name} counts twice: stiffness_factor reduces their EI to {factor} of that of the full section, and their hinges soften again at a cracking moment",
+                    "{}: cracking of the {name} is counted twice: stiffness_factor reduces their EI to {factor} of that of the full section, and their hinges soften again at the cracking moment",
                     quoted(&building.name)
                 );
                 (format!("{}, {name}", building.name), text)
@@ -154,7 +154,7 @@ pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         tally.add(times, || {
             let text = format!(
-                "the moment in {} where it is struck is {times:.1} times its capacity ({}), and the column stays elastic there: hinges stand at its ends",
+                "the moment in {} at the point of impact is {times:.1} times its capacity ({}), but the column is elastic there: its hinges are at its ends",
                 member.name, ratio.rule
             );
             (member.name.clone(), text)
@@ -215,7 +215,7 @@ pub(super) fn elastic_drift(known: &Known<'_>, tally: &mut Tally<'_>) {
     elastic(known, |times, _, name, elastic| {
         tally.add(times, || {
             let text = format!(
-                "{} {elastic}, but a drift of {:.1} % is {times:.1} times that at which frames yield",
+                "{} {elastic}, but its drift of {:.1} % is {times:.1} times the yield drift of frames",
                 quoted(name),
                 100.0 * YIELD_DRIFT * times
             );
@@ -229,7 +229,7 @@ pub(super) fn elastic_shear(known: &Known<'_>, tally: &mut Tally<'_>) {
     elastic(known, |_, shear, name, elastic| {
         tally.add(shear, || {
             let text = format!(
-                "{} {elastic}, but its base shear is {shear:.2} of its weight",
+                "{} {elastic}, but its base shear is {shear:.2} times its weight",
                 quoted(name)
             );
             (name.to_owned(), text)
@@ -254,7 +254,7 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
             let (tension, compression) = (end.axial_max_n, -end.axial_min_n);
             tally.add(tension / compression.max(1.0), || {
                 let text = format!(
-                    "{}: {:.0} kN of tension in a column",
+                    "{}: a column has {:.0} kN of tension",
                     column.name,
                     1e-3 * tension
                 );
@@ -300,7 +300,7 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let ratio = change.abs() * modulus / (axial * strength);
                 tally.add(ratio, || {
                     let text = format!(
-                        "{}: its compression goes to {:.0} kN, its hinges were made for {:.0} kN, ν changes by {ratio:.2}: its strength changes too",
+                        "{}: its compression reaches {:.0} kN, but its hinges are computed for {:.0} kN; ν changes by {ratio:.2}, and the strength with it",
                         member.name,
                         1e-3 * (made_for - change),
                         1e-3 * made_for

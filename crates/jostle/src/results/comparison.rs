@@ -44,12 +44,12 @@ impl HistoryScore {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("peak_measured", Unit::OF_COLUMN, "greatest magnitude of the measured values", |s| s.peak_measured).not_in_summary(),
-        Quantity::<Self>::real("peak_measured_at_s", Unit::S, "its instant", |s| s.peak_measured_at_s).not_in_summary(),
+        Quantity::<Self>::real("peak_measured_at_s", Unit::S, "time of this peak", |s| s.peak_measured_at_s).not_in_summary(),
         Quantity::<Self>::real("peak_computed", Unit::OF_COLUMN, "greatest magnitude of the computed values at the measured instants", |s| s.peak_computed).not_in_summary(),
-        Quantity::<Self>::real("peak_computed_at_s", Unit::S, "its instant", |s| s.peak_computed_at_s).not_in_summary(),
-        Quantity::<Self>::optional("peak_ratio", Unit::NONE, "computed over measured peak; absent if the measured one is zero", |s| s.peak_ratio).not_in_summary(),
-        Quantity::<Self>::optional("correlation", Unit::NONE, "Pearson's coefficient of correlation; absent if a history is constant", |s| s.correlation).not_in_summary(),
-        Quantity::<Self>::optional("rms_difference", Unit::NONE, "root mean square of computed less measured values over that of the measured values; absent if these are zero", |s| s.rms_difference).not_in_summary(),
+        Quantity::<Self>::real("peak_computed_at_s", Unit::S, "time of this peak", |s| s.peak_computed_at_s).not_in_summary(),
+        Quantity::<Self>::optional("peak_ratio", Unit::NONE, "ratio of computed to measured peak; absent if the measured peak is zero", |s| s.peak_ratio).not_in_summary(),
+        Quantity::<Self>::optional("correlation", Unit::NONE, "Pearson correlation coefficient; absent if a history is constant", |s| s.correlation).not_in_summary(),
+        Quantity::<Self>::optional("rms_difference", Unit::NONE, "RMS of computed minus measured values ÷ RMS of the measured values; absent if these are zero", |s| s.rms_difference).not_in_summary(),
     ];
 }
 
@@ -59,9 +59,9 @@ impl ImpactScore {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("measured_count", "measured impacts", |s| s.measured_count).not_in_summary(),
         Quantity::<Self>::whole("computed_count", "computed impacts", |s| s.computed_count).not_in_summary(),
-        Quantity::<Self>::whole("matched_count", "pairs of a measured and a computed impact within the window", |s| s.matched_count).not_in_summary(),
-        Quantity::<Self>::optional("time_difference_mean_s", Unit::S, "mean of computed less measured instants of the pairs; absent without a pair", |s| s.time_difference_mean_s).not_in_summary(),
-        Quantity::<Self>::optional("time_difference_peak_s", Unit::S, "greatest magnitude of these differences; absent without a pair", |s| s.time_difference_peak_s).not_in_summary(),
+        Quantity::<Self>::whole("matched_count", "matched pairs of measured and computed impacts, within the window", |s| s.matched_count).not_in_summary(),
+        Quantity::<Self>::optional("time_difference_mean_s", Unit::S, "mean time difference of the pairs, computed minus measured; absent without a pair", |s| s.time_difference_mean_s).not_in_summary(),
+        Quantity::<Self>::optional("time_difference_peak_s", Unit::S, "greatest absolute time difference of the pairs; absent without a pair", |s| s.time_difference_peak_s).not_in_summary(),
     ];
 }
 

@@ -24,7 +24,7 @@ pub fn overdamped_contacts(model: &Model, system: &System) -> Vec<(usize, String
             found.push((
                 index,
                 format!(
-                    "damps the lightest contact beyond critical, ζ = {ratio:.2}: no coefficient of restitution corresponds to it, and the first force of an impact is that of the dashpot alone; check its unit"
+                    "overdamps the lightest contact, ζ = {ratio:.2}: no coefficient of restitution corresponds to it, and the initial force of an impact is that of the dashpot alone; check its unit"
                 ),
             ));
         }
@@ -44,7 +44,7 @@ pub(super) fn crushed_notes(model: &Model, system: &System, state: &State) -> Ve
         if deepest > 0.0 {
             let [left, right] = gap.between.map(|side| system.side_name(side));
             notes.push(format!(
-                "faces between \"{left}\" and \"{right}\" are crushed by up to {:.2} mm at the end, which widens the gap; the indentation of an impact is measured from the face already crushed",
+                "faces between \"{left}\" and \"{right}\" are crushed by up to {:.2} mm at the end, which widens the gap; indentation is measured from the crushed face",
                 1e3 * deepest
             ));
         }

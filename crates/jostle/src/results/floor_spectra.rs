@@ -23,8 +23,8 @@ pub struct FloorSpectra {
 impl FloorSpectra {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("row_interval_s", Unit::S, "least time between instants of the floor motion in free vibration", |f| f.row_interval_s),
-        Quantity::<Self>::real("resolution", Unit::NONE, "estimated greatest error of the spectra from the distance of these instants, relative to each value", |f| f.resolution),
+        Quantity::<Self>::real("row_interval_s", Unit::S, "time between points of the floor motion in free vibration", |f| f.row_interval_s),
+        Quantity::<Self>::real("resolution", Unit::NONE, "estimated maximum relative error of the spectra due to the spacing of these points", |f| f.resolution),
     ];
 }
 
@@ -43,8 +43,8 @@ pub struct FilterSummary {
 impl FilterSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("order", "order of one pass", |f| f.order),
-        Quantity::<Self>::real("corner_hz", Unit::HZ, "corner frequency, where both passes together have a gain of one half", |f| f.corner_hz),
+        Quantity::<Self>::whole("order", "order of the filter, in one pass", |f| f.order),
+        Quantity::<Self>::real("corner_hz", Unit::HZ, "corner frequency, at which the gain of both passes together is one half", |f| f.corner_hz),
     ];
 }
 
@@ -68,7 +68,7 @@ pub struct FloorSpectrum {
 impl FloorSpectrum {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("floor", "floor, from 1", |f| f.floor),
+        Quantity::<Self>::whole("floor", "floor number, from 1", |f| f.floor),
         Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
     ];
 }
@@ -88,8 +88,8 @@ pub struct FloorResponse {
 impl FloorResponse {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("peak_acceleration_m_s2", Unit::M_S2, "peak total acceleration, as computed: it depends on the contact stiffness", |f| f.peak_acceleration_m_s2),
-        Quantity::<Self>::real("filtered_peak_acceleration_m_s2", Unit::M_S2, "the same after the filter", |f| f.filtered_peak_acceleration_m_s2),
+        Quantity::<Self>::real("peak_acceleration_m_s2", Unit::M_S2, "unfiltered peak total acceleration, which depends on the contact stiffness", |f| f.peak_acceleration_m_s2),
+        Quantity::<Self>::real("filtered_peak_acceleration_m_s2", Unit::M_S2, "peak total acceleration after the filter", |f| f.filtered_peak_acceleration_m_s2),
     ];
 }
 

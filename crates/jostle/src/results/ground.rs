@@ -33,8 +33,8 @@ pub struct GroundInPlan {
 impl GroundInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("displacement_across_peak_m", Unit::M, "greatest displacement of the ground across from rest, either sign", |g| g.displacement_across_peak_m),
-        Quantity::<Self>::real("displacement_across_end_m", Unit::M, "displacement of the ground across at the end", |g| g.displacement_across_end_m),
+        Quantity::<Self>::real("displacement_across_peak_m", Unit::M, "peak ground displacement across, from rest", |g| g.displacement_across_peak_m),
+        Quantity::<Self>::real("displacement_across_end_m", Unit::M, "ground displacement across at the end", |g| g.displacement_across_end_m),
     ];
 }
 
@@ -42,9 +42,9 @@ impl GroundInPlan {
 impl GroundSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("arrival_s", Unit::S, "when the ground motion arrives", |g| g.arrival_s),
-        Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement of the ground from rest, either sign", |g| g.displacement_peak_m),
-        Quantity::<Self>::real("displacement_end_m", Unit::M, "displacement of the ground at the end, positive to the right", |g| g.displacement_end_m),
+        Quantity::<Self>::real("arrival_s", Unit::S, "arrival time of the ground motion", |g| g.arrival_s),
+        Quantity::<Self>::real("displacement_peak_m", Unit::M, "peak ground displacement, from rest", |g| g.displacement_peak_m),
+        Quantity::<Self>::real("displacement_end_m", Unit::M, "ground displacement at the end, positive to the right", |g| g.displacement_end_m),
     ];
 }
 

@@ -47,19 +47,19 @@ impl FloorInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement across the row", |f| f.displacement_across_max_m).in_study(),
-        Quantity::<Self>::real("displacement_across_max_at_s", Unit::S, "its instant", |f| f.displacement_across_max_at_s),
-        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement across the row, ≤ 0", |f| f.displacement_across_min_m).in_study(),
-        Quantity::<Self>::real("displacement_across_min_at_s", Unit::S, "its instant", |f| f.displacement_across_min_at_s),
+        Quantity::<Self>::real("displacement_across_max_at_s", Unit::S, "time of this peak", |f| f.displacement_across_max_at_s),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "most negative displacement across the row, ≤ 0", |f| f.displacement_across_min_m).in_study(),
+        Quantity::<Self>::real("displacement_across_min_at_s", Unit::S, "time of this peak", |f| f.displacement_across_min_at_s),
         Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, counter-clockwise seen from above", |f| f.rotation_max_rad).in_study(),
-        Quantity::<Self>::real("rotation_max_at_s", Unit::S, "its instant", |f| f.rotation_max_at_s),
-        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "least rotation, ≤ 0", |f| f.rotation_min_rad).in_study(),
-        Quantity::<Self>::real("rotation_min_at_s", Unit::S, "its instant", |f| f.rotation_min_at_s),
+        Quantity::<Self>::real("rotation_max_at_s", Unit::S, "time of this peak", |f| f.rotation_max_at_s),
+        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "most negative rotation, ≤ 0", |f| f.rotation_min_rad).in_study(),
+        Quantity::<Self>::real("rotation_min_at_s", Unit::S, "time of this peak", |f| f.rotation_min_at_s),
         Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner", |f| f.corner_displacement_peak_m).in_study(),
-        Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "greatest total acceleration across", |f| f.total_acceleration_across_peak_m_s2).in_study(),
-        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey, at the centre of mass of its upper floor", |f| f.storey_drift_across_peak).in_study(),
-        Quantity::<Self>::real("storey_drift_corner_peak", Unit::NONE, "greatest drift ratio of the storey at a corner of the smaller plan, along x and across together", |f| f.storey_drift_corner_peak).in_study(),
-        Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "greatest shear across of the storey", |f| f.storey_shear_across_peak_n).in_study(),
-        Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "greatest torque of the storey about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m).in_study(),
+        Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "peak total acceleration across", |f| f.total_acceleration_across_peak_m_s2).in_study(),
+        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "peak drift ratio of the storey across, at the centre of mass of its upper floor", |f| f.storey_drift_across_peak).in_study(),
+        Quantity::<Self>::real("storey_drift_corner_peak", Unit::NONE, "peak resultant drift ratio of the storey at a corner of the smaller plan", |f| f.storey_drift_corner_peak).in_study(),
+        Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "peak storey shear across", |f| f.storey_shear_across_peak_n).in_study(),
+        Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "peak storey torque about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m).in_study(),
     ];
 }
 
@@ -84,12 +84,12 @@ pub struct BuildingInPlan {
 impl BuildingInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "greatest base shear across", |b| b.base_shear_across_peak_n).in_study().compared(),
-        Quantity::<Self>::real("base_torque_peak_n_m", Unit::NM, "greatest base torque about the centre of mass of the lowest floor", |b| b.base_torque_peak_n_m).in_study().compared(),
+        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "peak base shear across", |b| b.base_shear_across_peak_n).in_study().compared(),
+        Quantity::<Self>::real("base_torque_peak_n_m", Unit::NM, "peak base torque about the centre of mass of the lowest floor", |b| b.base_torque_peak_n_m).in_study().compared(),
         Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner of any floor", |b| b.corner_displacement_peak_m).in_study().compared(),
-        Quantity::<Self>::real("rotation_peak_rad", Unit::RAD, "greatest rotation of any floor", |b| b.rotation_peak_rad).in_study().compared(),
-        Quantity::<Self>::real("drift_across_peak", Unit::NONE, "greatest drift ratio across of any storey", |b| b.drift_across_peak).in_study().compared(),
-        Quantity::<Self>::real("drift_corner_peak", Unit::NONE, "greatest drift ratio of any storey at a corner of the smaller plan, along x and across together; codes judge it", |b| b.drift_corner_peak).in_study().compared(),
+        Quantity::<Self>::real("rotation_peak_rad", Unit::RAD, "peak rotation of any floor", |b| b.rotation_peak_rad).in_study().compared(),
+        Quantity::<Self>::real("drift_across_peak", Unit::NONE, "peak drift ratio of any storey across", |b| b.drift_across_peak).in_study().compared(),
+        Quantity::<Self>::real("drift_corner_peak", Unit::NONE, "peak resultant drift ratio of any storey at a corner of the smaller plan, as limited by codes", |b| b.drift_corner_peak).in_study().compared(),
     ];
 }
 

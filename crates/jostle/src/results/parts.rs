@@ -141,7 +141,7 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
         let fallen = building.fallen_panels();
         if let Some((first, at)) = fallen.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
             return Some(format!(
-                "infill panels of \"{}\" fall out of their plane: {}, {first} first at {at:.3} s; their struts bear nothing from then on",
+                "infill panels of \"{}\" fall out of plane: {}, {first} first at {at:.3} s; their struts carry no force afterwards",
                 building.name,
                 match fallen.len() {
                     1 => "one".to_owned(),
@@ -150,7 +150,7 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
             ));
         }
         Some(format!(
-            "infill panels of \"{}\" can fail out of plane: {} needs {:.2} times its strength; the model keeps its struts",
+            "infill panels of \"{}\" can fail out of plane: the demand on {} is {:.2} times its capacity; the model keeps its struts",
             building.name, worst.1, worst.0
         ))
     };

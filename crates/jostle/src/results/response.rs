@@ -36,12 +36,12 @@ pub struct BuildingResponse {
 impl BuildingResponse {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("drift_peak", Unit::NONE, "greatest drift ratio of any storey", |b| b.drift_peak).in_study().compared(),
-        Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration of any floor", |b| b.total_acceleration_peak_m_s2).in_study().compared(),
-        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |b| b.filtered_acceleration_peak_m_s2),
-        Quantity::<Self>::real("residual_drift_peak", Unit::NONE, "greatest drift ratio of any storey at the end, with what is left of vibration", |b| b.residual_drift_peak).in_study().compared(),
-        Quantity::<Self>::real("base_shear_peak_n", Unit::N, "greatest horizontal force on the ground: of columns, walls, braces, dampers and the base, of an isolated building that of its bearings and stops", |b| b.base_shear_peak_n).in_study().compared(),
-        Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end, with what is left of vibration", |b| b.residual_roof_displacement_m).in_study().compared(),
+        Quantity::<Self>::real("drift_peak", Unit::NONE, "peak drift ratio of any storey", |b| b.drift_peak).in_study().compared(),
+        Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "peak total acceleration of any floor", |b| b.total_acceleration_peak_m_s2).in_study().compared(),
+        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "peak total acceleration after a low-pass filter, 25 Hz or the corner of floor spectra; null without histories", |b| b.filtered_acceleration_peak_m_s2),
+        Quantity::<Self>::real("residual_drift_peak", Unit::NONE, "greatest drift ratio of any storey at the end, including remaining vibration", |b| b.residual_drift_peak).in_study().compared(),
+        Quantity::<Self>::real("base_shear_peak_n", Unit::N, "peak horizontal force on the ground, from columns, walls, braces, dampers and the base; for an isolated building, from its bearings and stops", |b| b.base_shear_peak_n).in_study().compared(),
+        Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end, including remaining vibration", |b| b.residual_roof_displacement_m).in_study().compared(),
         Quantity::<Self>::whole("hinges_cracked", "hinges that cracked", |b| b.hinges_cracked).in_study().compared().if_yielding(),
         Quantity::<Self>::whole("hinges_yielded", "hinges that yielded", |b| b.hinges_yielded).in_study().compared().if_yielding(),
         Quantity::<Self>::optional("ductility", Unit::NONE, "greatest ductility of any hinge; absent if nothing can yield", |b| b.ductility).in_study().compared().if_yielding(),
@@ -93,18 +93,18 @@ impl FloorResponse {
     /// Its numbers; drift, shear and moment are those of the storey below the floor.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("displacement_max_m", Unit::M, "greatest displacement to the right, relative to the ground", |f| f.displacement_max_m).in_study().compared(),
-        Quantity::<Self>::real("displacement_max_at_s", Unit::S, "its instant", |f| f.displacement_max_at_s),
+        Quantity::<Self>::real("displacement_max_at_s", Unit::S, "time of this peak", |f| f.displacement_max_at_s),
         Quantity::<Self>::real("displacement_min_m", Unit::M, "greatest displacement to the left, relative to the ground, ≤ 0", |f| f.displacement_min_m).in_study().compared(),
-        Quantity::<Self>::real("displacement_min_at_s", Unit::S, "its instant", |f| f.displacement_min_at_s),
-        Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement, either sign", Self::displacement_peak_m).not_in_summary().compared().shown("displacement", "mm", 1e3, 1),
-        Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration", |f| f.total_acceleration_peak_m_s2).in_study().compared().shown("total acceleration", "m/s²", 1.0, 2),
-        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |f| f.filtered_acceleration_peak_m_s2).shown("total acceleration, filtered", "m/s²", 1.0, 2),
-        Quantity::<Self>::real("storey_drift_peak", Unit::NONE, "greatest drift ratio of the storey", |f| f.storey_drift_peak).in_study().compared().shown("storey drift", "%", 100.0, 2),
-        Quantity::<Self>::real("storey_shear_peak_n", Unit::N, "greatest shear of the storey: the horizontal restoring forces above its base", |f| f.storey_shear_peak_n).in_study().compared().shown("storey shear", "kN", 1e-3, 1),
-        Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "greatest moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
-        Quantity::<Self>::real("residual_drift", Unit::NONE, "drift ratio of the storey at the end, with what is left of vibration, positive to the right", |f| f.residual_drift).in_study().compared(),
-        Quantity::<Self>::optional("stability_coefficient", Unit::NONE, "stability coefficient θ = P d_r/(V h) of the storey: weight above it times greatest drift ratio over greatest shear (EN 1998-1, 4.4.2.2); absent without shear", |f| f.stability_coefficient),
-        Quantity::<Self>::optional("vertical_displacement_peak_m", Unit::M, "greatest vertical displacement of any mass of the floor relative to the ground, either sign; only under vertical shaking", |f| f.vertical_displacement_peak_m).not_in_summary().in_study(),
+        Quantity::<Self>::real("displacement_min_at_s", Unit::S, "time of this peak", |f| f.displacement_min_at_s),
+        Quantity::<Self>::real("displacement_peak_m", Unit::M, "peak displacement", Self::displacement_peak_m).not_in_summary().compared().shown("displacement", "mm", 1e3, 1),
+        Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "peak total acceleration", |f| f.total_acceleration_peak_m_s2).in_study().compared().shown("total acceleration", "m/s²", 1.0, 2),
+        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "peak total acceleration after a low-pass filter, 25 Hz or the corner of floor spectra; null without histories", |f| f.filtered_acceleration_peak_m_s2).shown("total acceleration, filtered", "m/s²", 1.0, 2),
+        Quantity::<Self>::real("storey_drift_peak", Unit::NONE, "peak drift ratio of the storey", |f| f.storey_drift_peak).in_study().compared().shown("storey drift", "%", 100.0, 2),
+        Quantity::<Self>::real("storey_shear_peak_n", Unit::N, "peak storey shear: the sum of the horizontal restoring forces above its base", |f| f.storey_shear_peak_n).in_study().compared().shown("storey shear", "kN", 1e-3, 1),
+        Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "peak moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
+        Quantity::<Self>::real("residual_drift", Unit::NONE, "drift ratio of the storey at the end, including remaining vibration; positive to the right", |f| f.residual_drift).in_study().compared(),
+        Quantity::<Self>::optional("stability_coefficient", Unit::NONE, "stability coefficient θ = P d_r/(V h) of the storey: weight above × peak drift ratio ÷ peak shear (EN 1998-1, 4.4.2.2); absent without shear", |f| f.stability_coefficient),
+        Quantity::<Self>::optional("vertical_displacement_peak_m", Unit::M, "peak vertical displacement of any mass of the floor relative to the ground; only under vertical shaking", |f| f.vertical_displacement_peak_m).not_in_summary().in_study(),
     ];
 }
 

@@ -645,7 +645,7 @@ fn warnings(run: &Run) -> Vec<String> {
     {
         if run.motion.is_vertical() {
             warnings.push(format!(
-                "the normal force of the sliding bearings of \"{}\" stays its weight: vertical shaking does not change their friction here",
+                "the normal force of the sliding bearings of \"{}\" is constant (the weight): vertical shaking does not change their friction",
                 building.name
             ));
         }
@@ -654,7 +654,7 @@ fn warnings(run: &Run) -> Vec<String> {
     let given = -energy.contact / energy.input.abs().max(f64::MIN_POSITIVE);
     if given > MOST_GIVEN {
         warnings.push(format!(
-            "contacts gave {:.1} % of the energy put in, where they should only take some: the contact step is too coarse; use contact_step = \"auto\", or a smaller tolerance if it is auto already",
+            "contacts added {:.1} % of the input energy, but should only dissipate energy: the contact step is too coarse; use contact_step = \"auto\", or a smaller tolerance if it is auto already",
             given * 100.0
         ));
     }
@@ -685,13 +685,13 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
         )
     });
     let earlier = if residual > tolerance {
-        "impacts before that agree between two step sizes"
+        "earlier impacts agree between two step sizes"
     } else {
-        "earlier results are reliable, and meet the tolerance"
+        "earlier results meet the tolerance"
     };
     let sensitive = sensitive_from.map(|from| {
         format!(
-            "results are sensitive from t = {from:.3} s: an error below the tolerance decides there whether a contact occurs, and later impacts and peaks depend on it; {earlier}"
+            "results are sensitive from t = {from:.3} s: an error below the tolerance can make or miss a contact then, and later impacts and peaks depend on it; {earlier}"
         )
     });
     missed.into_iter().chain(sensitive)
@@ -706,12 +706,12 @@ fn notes(run: &Run) -> Vec<String> {
     if run.plan.integrator.dissipates() {
         let taken = run.outcome.energy.imbalance();
         notes.push(format!(
-            "the integrator damps the motion by itself: {:.2} % of the input energy is its share",
+            "numerical damping of the integrator dissipates {:.2} % of the input energy",
             100.0 * taken
         ));
         if !run.system.contacts.is_empty() {
             notes.push(
-                "an integrator that damps the motion takes from the rebound of every impact: restitution and impact counts come out too small; use average acceleration to judge pounding".to_owned(),
+                "numerical damping reduces the rebound of every impact: restitution and impact counts are underestimated; use average acceleration for pounding".to_owned(),
             );
         }
     }
@@ -722,12 +722,12 @@ fn notes(run: &Run) -> Vec<String> {
         .any(|gap| gap.law.kind == LawKind::Restitution)
     {
         notes.push(
-            "the restitution law changes velocities at once: its impacts have an impulse, but neither force nor duration; forces are those of lasting contact".to_owned(),
+            "the restitution law changes velocities instantly: its impacts have an impulse, but no force or duration; forces are those of sustained contact".to_owned(),
         );
     }
     if run.plan.solver != Solver::Modal && run.system.frictions().next().is_some() {
         notes.push(
-            "direct steps do not estimate single impacts: instants and speeds of gentle ones may be off by more than the tolerance".to_owned(),
+            "direct steps have no error estimate for single impacts: times and speeds of light impacts may have errors above the tolerance".to_owned(),
         );
     }
     notes.extend(crushed_notes(run.model, run.system, &run.outcome.state));

@@ -27,11 +27,11 @@ pub struct PromiseSummary {
 impl PromiseSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("tolerance", Unit::NONE, "tolerance of peaks", |p| p.tolerance),
-        Quantity::<Self>::optional("met", Unit::NONE, "whether the estimate stays within the tolerance", |p| p.met.map(|met| f64::from(u8::from(met)))),
-        Quantity::<Self>::optional("met_until_s", Unit::S, "instant until which that holds, if not to the end", |p| p.met_until_s),
-        Quantity::<Self>::optional("residual", Unit::NONE, "estimated error of the least accurate peak of a building", |p| p.residual),
-        Quantity::<Self>::optional("sensitive_from_s", Unit::S, "instant from which results depend on contacts made or missed within the tolerance", |p| p.sensitive_from_s),
+        Quantity::<Self>::real("tolerance", Unit::NONE, "tolerance for peaks", |p| p.tolerance),
+        Quantity::<Self>::optional("met", Unit::NONE, "whether the estimated errors are within the tolerance", |p| p.met.map(|met| f64::from(u8::from(met)))),
+        Quantity::<Self>::optional("met_until_s", Unit::S, "time until which they are, if not until the end", |p| p.met_until_s),
+        Quantity::<Self>::optional("residual", Unit::NONE, "estimated error of the least accurate peak of any building", |p| p.residual),
+        Quantity::<Self>::optional("sensitive_from_s", Unit::S, "time from which results depend on contacts that errors within the tolerance can make or miss", |p| p.sensitive_from_s),
     ];
 }
 
@@ -60,7 +60,7 @@ impl PromiseSummary {
             (None, Some(from)) => {
                 let earlier = match self.met {
                     Some(true) => "earlier peaks are reliable",
-                    _ => "impacts before that agree between two step sizes",
+                    _ => "earlier impacts agree between two step sizes",
                 };
                 format!("accuracy: {estimate}; sensitive from t = {from:.3} s; {earlier}")
             }
@@ -125,15 +125,15 @@ impl WorkSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("steps", "accepted steps", |w| w.steps as usize).in_study(),
-        Quantity::<Self>::whole("contact_steps", "those with a closed contact", |w| w.contact_steps as usize).in_study(),
+        Quantity::<Self>::whole("contact_steps", "steps with a closed contact", |w| w.contact_steps as usize).in_study(),
         Quantity::<Self>::whole("repeated_steps", "steps repeated at an event", |w| w.repeated_steps as usize),
         Quantity::<Self>::whole("factorizations", "factorisations", |w| w.factorizations as usize).in_study(),
-        Quantity::<Self>::whole("solves", "solutions", |w| w.solves as usize).in_study(),
+        Quantity::<Self>::whole("solves", "linear solutions", |w| w.solves as usize).in_study(),
         Quantity::<Self>::whole("iterations", "Newton iterations on contact forces", |w| w.iterations as usize).in_study(),
-        Quantity::<Self>::whole("outer_iterations", "iterations on springs that yield, one per trial step", |w| w.outer_iterations as usize),
-        Quantity::<Self>::whole("halved_steps", "steps halved because those did not converge", |w| w.halved_steps as usize),
-        Quantity::<Self>::whole("coupling_operations", "multiply-adds spent on the forces of contacts and links", |w| w.coupling_operations as usize),
-        Quantity::<Self>::whole("shapes", "shapes of modal stepping; 0 for other solvers", |w| w.shapes as usize),
+        Quantity::<Self>::whole("outer_iterations", "iterations for yielding springs, one per trial step", |w| w.outer_iterations as usize),
+        Quantity::<Self>::whole("halved_steps", "steps halved because these iterations did not converge", |w| w.halved_steps as usize),
+        Quantity::<Self>::whole("coupling_operations", "multiply-add operations for the forces of contacts and links", |w| w.coupling_operations as usize),
+        Quantity::<Self>::whole("shapes", "mode shapes used by modal stepping; 0 for other solvers", |w| w.shapes as usize),
         Quantity::<Self>::whole("repeated_runs", "runs repeated with more shapes or finer steps", |w| w.repeated_runs as usize),
         Quantity::<Self>::real("step_s", Unit::S, "regular free-vibration step", |w| w.step_s),
         Quantity::<Self>::optional("contact_step_s", Unit::S, "smallest regular step in contact", |w| w.contact_step_s),

@@ -111,7 +111,7 @@ impl BuildingSummary {
         Quantity::<Self>::optional("period_s", Unit::S, "period of the first lateral mode", |b| b.periods_s.first().copied()).not_in_summary().in_study(),
         Quantity::<Self>::real("rayleigh_alpha_per_s", Unit::PER_S, "Rayleigh damping: coefficient of the mass", |b| b.rayleigh_alpha_per_s),
         Quantity::<Self>::real("rayleigh_beta_s", Unit::S, "Rayleigh damping: coefficient of the stiffness", |b| b.rayleigh_beta_s),
-        Quantity::<Self>::optional("degree_of_coupling", Unit::NONE, "greatest moment at the base by axial forces of coupled walls over the greatest of all; absent without coupling beams", |b| b.degree_of_coupling).not_in_table(),
+        Quantity::<Self>::optional("degree_of_coupling", Unit::NONE, "peak base moment from axial forces of coupled walls ÷ peak total base moment; absent without coupling beams", |b| b.degree_of_coupling).not_in_table(),
     ];
 }
 
@@ -170,7 +170,7 @@ impl FloorSummary {
 impl FloorSummary {
     /// Where it is.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("floor", "floor, from 1; 0 is the mat of an isolated building", |f| f.floor),
+        Quantity::<Self>::whole("floor", "floor number, from 1; 0 is the mat of an isolated building", |f| f.floor),
         Quantity::<Self>::real("height_m", Unit::M, "height above the base", |f| f.height_m),
     ];
 }

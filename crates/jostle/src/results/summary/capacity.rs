@@ -24,8 +24,8 @@ pub struct RatioSummary {
 impl RatioSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::optional("shear", Unit::NONE, "greatest shear over shear capacity; absent where the rule has none", |r| r.shear),
-        Quantity::<Self>::real("bending", Unit::NONE, "greatest moment over moment capacity under the axial force of the same instant", |r| r.bending),
+        Quantity::<Self>::optional("shear", Unit::NONE, "greatest ratio of shear to shear capacity; absent if the rule has none", |r| r.shear),
+        Quantity::<Self>::real("bending", Unit::NONE, "greatest ratio of moment to moment capacity under the simultaneous axial force", |r| r.bending),
     ];
 }
 
@@ -58,12 +58,12 @@ impl RatioPlace {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("height_m", Unit::M, "height above the base of the section with the greatest ratio", |p| p.height_m),
-        Quantity::<Self>::real("at_s", Unit::S, "instant of the greatest ratio", |p| p.at_s),
-        Quantity::<Self>::real("demand", Unit::NM_OR_N, "moment or shear then, with its sign", |p| p.demand),
-        Quantity::<Self>::optional("demand_across", Unit::NM_OR_N, "moment or shear in the plane across then, of a column of a space frame", |p| p.demand_across),
-        Quantity::<Self>::real("capacity", Unit::NM_OR_N, "capacity then; of demands in two planes, in the direction of both together", |p| p.capacity),
-        Quantity::<Self>::real("compression_n", Unit::N, "axial compression then, negative in tension", |p| p.compression_n),
-        Quantity::<Self>::optional("exceeded_s", Unit::S, "first instant beyond the capacity anywhere in the member; absent if it was kept", |p| p.exceeded_s),
+        Quantity::<Self>::real("at_s", Unit::S, "time of the greatest ratio", |p| p.at_s),
+        Quantity::<Self>::real("demand", Unit::NM_OR_N, "moment or shear at this time, with its sign", |p| p.demand),
+        Quantity::<Self>::optional("demand_across", Unit::NM_OR_N, "moment or shear in the plane across at this time, for a column of a space frame", |p| p.demand_across),
+        Quantity::<Self>::real("capacity", Unit::NM_OR_N, "capacity at this time; for demands in two planes, in the direction of their resultant", |p| p.capacity),
+        Quantity::<Self>::real("compression_n", Unit::N, "axial compression at this time, negative in tension", |p| p.compression_n),
+        Quantity::<Self>::optional("exceeded_s", Unit::S, "time at which the member first exceeds its capacity; absent if it never does", |p| p.exceeded_s),
     ];
 }
 
@@ -101,7 +101,7 @@ pub struct AcceptanceSummary {
 impl AcceptanceSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("rotation_rad", Unit::RAD, "greatest rotation of both ends, either sign", |a| a.rotation_rad),
+        Quantity::<Self>::real("rotation_rad", Unit::RAD, "peak rotation of either end", |a| a.rotation_rad),
     ];
 }
 
@@ -131,7 +131,7 @@ impl AxialFailureSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("drift", Unit::NONE, "drift ratio at axial failure under the greatest compression", |a| a.drift),
         Quantity::<Self>::real("compression_n", Unit::N, "greatest compression", |a| a.compression_n),
-        Quantity::<Self>::real("ratio", Unit::NONE, "greatest drift ratio of the storey over the drift at axial failure", |a| a.ratio),
+        Quantity::<Self>::real("ratio", Unit::NONE, "ratio of the peak drift ratio of the storey to the drift at axial failure", |a| a.ratio),
     ];
 }
 
@@ -163,12 +163,12 @@ impl CapacitySummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("rated", "members with a known capacity", |c| c.rated),
-        Quantity::<Self>::whole("exceeded", "members beyond their capacity, in shear or in bending", |c| c.exceeded).in_study(),
-        Quantity::<Self>::whole("exceeded_in_shear", "those of them beyond it in shear", |c| c.exceeded_in_shear).in_study(),
+        Quantity::<Self>::whole("exceeded", "members that exceed their capacity, in shear or in bending", |c| c.exceeded).in_study(),
+        Quantity::<Self>::whole("exceeded_in_shear", "members that exceed their capacity in shear", |c| c.exceeded_in_shear).in_study(),
         Quantity::<Self>::whole("joints_rated", "joints with a known capacity", |c| c.joints_rated),
-        Quantity::<Self>::whole("joints_exceeded", "joints beyond their capacity in shear", |c| c.joints_exceeded).in_study(),
-        Quantity::<Self>::real("ratio", Unit::NONE, "greatest demand over capacity of any member", |c| c.worst.ratio).not_in_summary().in_study(),
-        Quantity::<Self>::optional("first_s", Unit::S, "instant at which the first member was beyond its capacity; absent if none was", |c| c.first.as_ref().map(|first| first.at_s)).not_in_summary().in_study(),
+        Quantity::<Self>::whole("joints_exceeded", "joints that exceed their shear capacity", |c| c.joints_exceeded).in_study(),
+        Quantity::<Self>::real("ratio", Unit::NONE, "greatest ratio of demand to capacity of any member", |c| c.worst.ratio).not_in_summary().in_study(),
+        Quantity::<Self>::optional("first_s", Unit::S, "time at which a member first exceeds its capacity; absent if none does", |c| c.first.as_ref().map(|first| first.at_s)).not_in_summary().in_study(),
     ];
 }
 
@@ -193,7 +193,7 @@ pub struct ExceededSummary {
 impl ExceededSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("at_s", Unit::S, "instant of the greatest ratio, or of the first excess", |e| e.at_s),
-        Quantity::<Self>::real("ratio", Unit::NONE, "greatest demand over capacity there", |e| e.ratio),
+        Quantity::<Self>::real("at_s", Unit::S, "time of the greatest ratio, or of the first exceedance", |e| e.at_s),
+        Quantity::<Self>::real("ratio", Unit::NONE, "greatest ratio of demand to capacity there", |e| e.ratio),
     ];
 }

@@ -40,18 +40,18 @@ pub struct FoundationSummary {
 impl FoundationSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("sway_peak_m", Unit::M, "greatest displacement, either sign", |f| f.sway_peak_m),
-        Quantity::<Self>::real("rocking_peak_rad", Unit::RAD, "greatest rotation, either sign", |f| f.rocking_peak_rad),
+        Quantity::<Self>::real("sway_peak_m", Unit::M, "peak displacement", |f| f.sway_peak_m),
+        Quantity::<Self>::real("rocking_peak_rad", Unit::RAD, "peak rotation", |f| f.rocking_peak_rad),
         Quantity::<Self>::real("period_s", Unit::S, "first lateral period on the soil, without neighbours", |f| f.period_s),
-        Quantity::<Self>::real("period_ratio", Unit::NONE, "the same over that on rigid ground", |f| f.period_ratio),
+        Quantity::<Self>::real("period_ratio", Unit::NONE, "ratio of this period to that on rigid ground", |f| f.period_ratio),
         Quantity::<Self>::real("damping_ratio", Unit::NONE, "damping ratio of the first lateral mode on the soil, to first order in the dashpots", |f| f.damping_ratio),
         Quantity::<Self>::real("damping_ratio_fixed", Unit::NONE, "damping ratio of the first lateral mode on rigid ground", |f| f.damping_ratio_fixed),
-        Quantity::<Self>::real("sway_stiffness_n_m", Unit::N_PER_M, "stiffness against displacement, without neighbours", |f| f.sway_stiffness_n_m),
-        Quantity::<Self>::real("sway_damping_n_s_m", Unit::NS_PER_M, "dashpot of displacement", |f| f.sway_damping_n_s_m),
-        Quantity::<Self>::real("rocking_stiffness_n_m_rad", Unit::NM_PER_RAD, "stiffness against rotation, without neighbours", |f| f.rocking_stiffness_n_m_rad),
-        Quantity::<Self>::real("rocking_damping_n_m_s_rad", Unit::NMS_PER_RAD, "dashpot of rotation", |f| f.rocking_damping_n_m_s_rad),
-        Quantity::<Self>::real("dimensionless_frequency", Unit::NONE, "a0 = ωB/Vs at which springs and dashpots hold, B being half the shorter side; 0 for given matrices", |f| f.dimensionless_frequency),
-        Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in its own dashpots", |f| f.damped_j),
+        Quantity::<Self>::real("sway_stiffness_n_m", Unit::N_PER_M, "horizontal stiffness, without neighbours", |f| f.sway_stiffness_n_m),
+        Quantity::<Self>::real("sway_damping_n_s_m", Unit::NS_PER_M, "horizontal dashpot", |f| f.sway_damping_n_s_m),
+        Quantity::<Self>::real("rocking_stiffness_n_m_rad", Unit::NM_PER_RAD, "rocking stiffness, without neighbours", |f| f.rocking_stiffness_n_m_rad),
+        Quantity::<Self>::real("rocking_damping_n_m_s_rad", Unit::NMS_PER_RAD, "rocking dashpot", |f| f.rocking_damping_n_m_s_rad),
+        Quantity::<Self>::real("dimensionless_frequency", Unit::NONE, "a0 = ωB/Vs at which springs and dashpots are evaluated, where B is half the shorter side; 0 for given matrices", |f| f.dimensionless_frequency),
+        Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in its dashpots", |f| f.damped_j),
     ];
 }
 
@@ -90,18 +90,18 @@ pub struct FoundationAcross {
 impl FoundationAcross {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("sway_across_peak_m", Unit::M, "greatest displacement across, either sign", |f| f.sway_across_peak_m),
-        Quantity::<Self>::real("rocking_across_peak_rad", Unit::RAD, "greatest rotation that moves floors across, either sign", |f| f.rocking_across_peak_rad),
-        Quantity::<Self>::real("torsion_peak_rad", Unit::RAD, "greatest rotation about the vertical axis, either sign", |f| f.torsion_peak_rad),
+        Quantity::<Self>::real("sway_across_peak_m", Unit::M, "peak displacement across", |f| f.sway_across_peak_m),
+        Quantity::<Self>::real("rocking_across_peak_rad", Unit::RAD, "peak rocking rotation that moves floors across", |f| f.rocking_across_peak_rad),
+        Quantity::<Self>::real("torsion_peak_rad", Unit::RAD, "peak rotation about the vertical axis", |f| f.torsion_peak_rad),
         Quantity::<Self>::real("period_across_s", Unit::S, "fundamental period across on the soil", |f| f.period_across_s),
-        Quantity::<Self>::real("period_ratio_across", Unit::NONE, "the same over that on rigid ground", |f| f.period_ratio_across),
+        Quantity::<Self>::real("period_ratio_across", Unit::NONE, "ratio of this period to that on rigid ground", |f| f.period_ratio_across),
         Quantity::<Self>::real("damping_ratio_across", Unit::NONE, "damping ratio of that mode on the soil, to first order in the dashpots", |f| f.damping_ratio_across),
         Quantity::<Self>::real("damping_ratio_across_fixed", Unit::NONE, "damping ratio of the fundamental mode across on rigid ground", |f| f.damping_ratio_across_fixed),
-        Quantity::<Self>::real("sway_across_stiffness_n_m", Unit::N_PER_M, "stiffness against displacement across", |f| f.sway_across_stiffness_n_m),
-        Quantity::<Self>::real("sway_across_damping_n_s_m", Unit::NS_PER_M, "dashpot of displacement across", |f| f.sway_across_damping_n_s_m),
-        Quantity::<Self>::real("rocking_across_stiffness_n_m_rad", Unit::NM_PER_RAD, "stiffness against rotation that moves floors across", |f| f.rocking_across_stiffness_n_m_rad),
-        Quantity::<Self>::real("rocking_across_damping_n_m_s_rad", Unit::NMS_PER_RAD, "dashpot of that rotation", |f| f.rocking_across_damping_n_m_s_rad),
-        Quantity::<Self>::real("torsional_stiffness_n_m_rad", Unit::NM_PER_RAD, "stiffness against rotation about the vertical axis", |f| f.torsional_stiffness_n_m_rad),
-        Quantity::<Self>::real("torsional_damping_n_m_s_rad", Unit::NMS_PER_RAD, "dashpot of that rotation", |f| f.torsional_damping_n_m_s_rad),
+        Quantity::<Self>::real("sway_across_stiffness_n_m", Unit::N_PER_M, "horizontal stiffness across", |f| f.sway_across_stiffness_n_m),
+        Quantity::<Self>::real("sway_across_damping_n_s_m", Unit::NS_PER_M, "horizontal dashpot across", |f| f.sway_across_damping_n_s_m),
+        Quantity::<Self>::real("rocking_across_stiffness_n_m_rad", Unit::NM_PER_RAD, "stiffness against rocking that moves floors across", |f| f.rocking_across_stiffness_n_m_rad),
+        Quantity::<Self>::real("rocking_across_damping_n_m_s_rad", Unit::NMS_PER_RAD, "dashpot of this rotation", |f| f.rocking_across_damping_n_m_s_rad),
+        Quantity::<Self>::real("torsional_stiffness_n_m_rad", Unit::NM_PER_RAD, "torsional stiffness about the vertical axis", |f| f.torsional_stiffness_n_m_rad),
+        Quantity::<Self>::real("torsional_damping_n_m_s_rad", Unit::NMS_PER_RAD, "dashpot of this rotation", |f| f.torsional_damping_n_m_s_rad),
     ];
 }

@@ -48,25 +48,25 @@ pub struct GapSummary {
 impl GapSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("width_m", Unit::M, "width at rest, the least of its contacts", |g| g.width_m).in_study(),
-        Quantity::<Self>::real("clearance_m", Unit::M, "smallest distance during the run; negative: indentation", |g| g.clearance_m),
-        Quantity::<Self>::optional("free_restitution", Unit::NONE, "restitution of free masses under the contact law; absent where it depends on the impact speed", |g| g.free_restitution),
+        Quantity::<Self>::real("width_m", Unit::M, "width at rest, the smallest of its contacts", |g| g.width_m).in_study(),
+        Quantity::<Self>::real("clearance_m", Unit::M, "smallest distance during the run; negative values are indentation", |g| g.clearance_m),
+        Quantity::<Self>::optional("free_restitution", Unit::NONE, "restitution of free masses under the contact law; absent if it depends on the impact speed", |g| g.free_restitution),
         Quantity::<Self>::whole("impact_count", "impacts of all its contacts", |g| g.impact_count).in_study(),
-        Quantity::<Self>::real("minimum_separation_s", Unit::S, "impacts of one contact that follow each other sooner count as one", |g| g.minimum_separation_s),
+        Quantity::<Self>::real("minimum_separation_s", Unit::S, "impacts of one contact with less time between them count as one", |g| g.minimum_separation_s),
         Quantity::<Self>::whole("pounding_count", "intervals in which at least one contact is in impact", |g| g.pounding_count).in_study(),
-        Quantity::<Self>::whole("multiple_pounding_count", "those with impacts at two or more contacts at once", |g| g.multiple_pounding_count),
-        Quantity::<Self>::whole("most_at_once", "greatest number of contacts in impact at one instant", |g| g.most_at_once).in_study(),
+        Quantity::<Self>::whole("multiple_pounding_count", "intervals with impacts at two or more contacts at once", |g| g.multiple_pounding_count),
+        Quantity::<Self>::whole("most_at_once", "greatest number of contacts in impact at the same time", |g| g.most_at_once).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of its contacts", |g| g.peak_force_n).in_study(),
-        Quantity::<Self>::real("total_force_peak_n", Unit::N, "greatest sum of the forces of all its contacts at one instant", |g| g.total_force_peak_n).in_study(),
-        Quantity::<Self>::optional("total_force_peak_at_s", Unit::S, "its instant; absent without an impact", |g| g.total_force_peak_at_s),
-        Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |g| g.first_impact_s).in_study(),
+        Quantity::<Self>::real("total_force_peak_n", Unit::N, "greatest sum of the forces of all its contacts at the same time", |g| g.total_force_peak_n).in_study(),
+        Quantity::<Self>::optional("total_force_peak_at_s", Unit::S, "time of this peak; absent without an impact", |g| g.total_force_peak_at_s),
+        Quantity::<Self>::optional("first_impact_s", Unit::S, "time of the first impact", |g| g.first_impact_s).in_study(),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the forces of all its contacts", Self::impulse_n_s).not_in_summary().in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any of its contacts", Self::closing_peak_m).not_in_summary().in_study(),
     ];
 
     /// Numbers of the run without contact; in studies if they ask for it.
     pub const WITHOUT_CONTACT: &[Quantity<Self>] = &[
-        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the gap needed; in studies with `without_contact = true`", |g| g.closing_without_contact_m).in_study(),
+        Quantity::<Self>::optional("closing_without_contact_m", Unit::M, "greatest closing without contact: the gap needed. In studies only with `without_contact = true`", |g| g.closing_without_contact_m).in_study(),
     ];
 }
 
@@ -134,15 +134,15 @@ impl ContactSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("height_m", Unit::M, "height above the base, or above the datum of elevations", |c| c.height_m),
         Quantity::<Self>::real("width_m", Unit::M, "width at rest", |c| c.width_m),
-        Quantity::<Self>::optional("crushed_depth_m", Unit::M, "depth to which the face is crushed at the end: its gap is wider by it; only with crush", |c| c.crushed_depth_m).not_in_summary(),
-        Quantity::<Self>::optional("equivalent_restitution", Unit::NONE, "coefficient of restitution whose published formula gives the dashpot; only with damping", |c| c.equivalent_restitution).not_in_summary(),
+        Quantity::<Self>::optional("crushed_depth_m", Unit::M, "crushed depth of the face at the end, by which the gap is wider; only with crush", |c| c.crushed_depth_m).not_in_summary(),
+        Quantity::<Self>::optional("equivalent_restitution", Unit::NONE, "coefficient of restitution for which the published formula gives the dashpot; only with damping", |c| c.equivalent_restitution).not_in_summary(),
         Quantity::<Self>::whole("impact_count", "impacts", |c| c.impact_count).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |c| c.peak_force_n).in_study(),
-        Quantity::<Self>::optional("peak_force_at_s", Unit::S, "its instant; absent without an impact", |c| c.peak_force_at_s),
+        Quantity::<Self>::optional("peak_force_at_s", Unit::S, "time of this peak; absent without an impact", |c| c.peak_force_at_s),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |c| c.impulse_n_s).in_study(),
-        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing; beyond width_m it is indentation", |c| c.closing_peak_m).in_study(),
-        Quantity::<Self>::real("closing_peak_at_s", Unit::S, "its instant", |c| c.closing_peak_at_s),
-        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "the part of it that the grounds contribute; only with different motion under each building", |c| c.closing_peak_ground_m).not_in_summary(),
+        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing; the excess over width_m is indentation", |c| c.closing_peak_m).in_study(),
+        Quantity::<Self>::real("closing_peak_at_s", Unit::S, "time of this peak", |c| c.closing_peak_at_s),
+        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "part of this closing due to the ground displacements; only with different motion under each building", |c| c.closing_peak_ground_m).not_in_summary(),
     ];
 }
 
@@ -190,19 +190,19 @@ pub struct ImpactSummary {
 impl ImpactSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("start_s", Unit::S, "instant of first contact", |i| i.start_s),
-        Quantity::<Self>::real("end_s", Unit::S, "last instant of force", |i| i.end_s),
-        Quantity::<Self>::real("duration_s", Unit::S, "time from first contact to the last instant of force", |i| i.end_s - i.start_s).not_in_summary(),
+        Quantity::<Self>::real("start_s", Unit::S, "time of first contact", |i| i.start_s),
+        Quantity::<Self>::real("end_s", Unit::S, "time of the last contact force", |i| i.end_s),
+        Quantity::<Self>::real("duration_s", Unit::S, "time from first contact to the last contact force", |i| i.end_s - i.start_s).not_in_summary(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |i| i.peak_force_n),
-        Quantity::<Self>::real("peak_force_at_s", Unit::S, "its instant", |i| i.peak_force_at_s),
+        Quantity::<Self>::real("peak_force_at_s", Unit::S, "time of this peak", |i| i.peak_force_at_s),
         Quantity::<Self>::real("peak_indentation_m", Unit::M, "greatest indentation", |i| i.peak_indentation_m),
         Quantity::<Self>::real("impact_speed_m_s", Unit::M_S, "closing rate at first contact", |i| i.impact_speed_m_s),
-        Quantity::<Self>::real("separation_speed_m_s", Unit::M_S, "opening rate at the end; 0 if the run ended first", |i| i.separation_speed_m_s),
+        Quantity::<Self>::real("separation_speed_m_s", Unit::M_S, "opening rate at the end of the impact; 0 if the run ended first", |i| i.separation_speed_m_s),
         Quantity::<Self>::real("realised_restitution", Unit::NONE, "separation speed ÷ impact speed", |i| i.realised_restitution),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |i| i.impulse_n_s),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated by the contact", |i| i.dissipated_j),
-        Quantity::<Self>::whole("finished", "whether it ended within the run", |i| usize::from(i.finished)),
-        Quantity::<Self>::whole("touches", "closed episodes counted as this one impact", |i| i.touches),
-        Quantity::<Self>::whole("simultaneous", "greatest number of contacts of the gap in impact at one instant of it", |i| i.simultaneous),
+        Quantity::<Self>::whole("finished", "whether the impact ended within the run", |i| usize::from(i.finished)),
+        Quantity::<Self>::whole("touches", "contact episodes counted as this impact", |i| i.touches),
+        Quantity::<Self>::whole("simultaneous", "greatest number of contacts of the gap in impact at the same time during this impact", |i| i.simultaneous),
     ];
 }

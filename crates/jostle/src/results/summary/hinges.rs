@@ -27,12 +27,12 @@ pub struct HingeSummary {
 impl HingeSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("total", "places that can crack or yield", |h| h.total),
-        Quantity::<Self>::whole("cracked", "those that cracked", |h| h.cracked),
-        Quantity::<Self>::whole("yielded", "those that yielded", |h| h.yielded),
-        Quantity::<Self>::optional("first_yield_s", Unit::S, "instant of the first yield", |h| h.first_yield_s),
-        Quantity::<Self>::real("ductility", Unit::NONE, "greatest ductility of any of them", |h| h.ductility),
-        Quantity::<Self>::real("dissipated_j", Unit::J, "energy that they dissipated", |h| h.dissipated_j),
+        Quantity::<Self>::whole("total", "hinges and springs that can crack or yield", |h| h.total),
+        Quantity::<Self>::whole("cracked", "number of these that cracked", |h| h.cracked),
+        Quantity::<Self>::whole("yielded", "number of these that yielded", |h| h.yielded),
+        Quantity::<Self>::optional("first_yield_s", Unit::S, "time of first yield", |h| h.first_yield_s),
+        Quantity::<Self>::real("ductility", Unit::NONE, "greatest ductility of any of these", |h| h.ductility),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated by all of these", |h| h.dissipated_j),
     ];
 }
 
@@ -65,13 +65,13 @@ pub struct SpringSummary {
 impl SpringSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("index", "number among the hinges of the building, from 0", |s| s.index).not_in_table(),
-        Quantity::<Self>::optional("cracked_s", Unit::S, "instant of cracking; 0 if self weight alone causes it", |s| s.cracked_s),
-        Quantity::<Self>::optional("yielded_s", Unit::S, "instant of yielding; 0 if self weight alone causes it", |s| s.yielded_s),
-        Quantity::<Self>::real("deformation_max", Unit::RAD_OR_M, "greatest deformation of the positive side", |s| s.deformation_max),
-        Quantity::<Self>::real("deformation_min", Unit::RAD_OR_M, "greatest deformation of the negative side", |s| s.deformation_min),
-        Quantity::<Self>::real("ductility", Unit::NONE, "greatest rotation of the member end over that at yield; of storeys, deformation over that at yield", |s| s.ductility),
-        Quantity::<Self>::real("peak_force", Unit::NM_OR_N, "greatest moment; of storeys, shear", |s| s.peak_force),
+        Quantity::<Self>::whole("index", "index among the hinges of the building, from 0", |s| s.index).not_in_table(),
+        Quantity::<Self>::optional("cracked_s", Unit::S, "time of cracking; 0 if self weight alone causes it", |s| s.cracked_s),
+        Quantity::<Self>::optional("yielded_s", Unit::S, "time of yielding; 0 if self weight alone causes it", |s| s.yielded_s),
+        Quantity::<Self>::real("deformation_max", Unit::RAD_OR_M, "greatest deformation in the positive direction", |s| s.deformation_max),
+        Quantity::<Self>::real("deformation_min", Unit::RAD_OR_M, "greatest deformation in the negative direction", |s| s.deformation_min),
+        Quantity::<Self>::real("ductility", Unit::NONE, "ratio of peak rotation of the member end to yield rotation; for storeys, of peak to yield deformation", |s| s.ductility),
+        Quantity::<Self>::real("peak_force", Unit::NM_OR_N, "peak moment; for storeys, peak shear", |s| s.peak_force),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |s| s.dissipated_j),
     ];
 }

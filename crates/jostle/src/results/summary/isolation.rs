@@ -117,8 +117,8 @@ pub struct StageSummary {
 impl StageSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("travel_peak_m", Unit::M, "greatest travel, either sign", |s| s.travel_peak_m),
-        Quantity::<Self>::real("travel_m", Unit::M, "travel at its rim", |s| s.travel_m),
+        Quantity::<Self>::real("travel_peak_m", Unit::M, "peak displacement on this surface", |s| s.travel_peak_m),
+        Quantity::<Self>::real("travel_m", Unit::M, "displacement capacity of this surface, at its rim", |s| s.travel_m),
     ];
 }
 
@@ -149,15 +149,15 @@ pub struct IsolationInPlan {
 impl IsolationInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("bearings", "number of bearings; four stand for all where their places are not given", |i| i.bearings),
-        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest length of the displacement of a bearing", |i| i.stroke_peak_m),
-        Quantity::<Self>::real("stroke_peak_at_s", Unit::S, "its instant", |i| i.stroke_peak_at_s),
-        Quantity::<Self>::whole("stroke_bearing", "that bearing, from 1", |i| i.stroke_bearing),
-        Quantity::<Self>::real("residual_stroke_m", Unit::M, "greatest length of the displacement of a bearing at the end", |i| i.residual_stroke_m),
+        Quantity::<Self>::whole("bearings", "number of bearings; four equivalent ones if their positions are not given", |i| i.bearings),
+        Quantity::<Self>::real("stroke_peak_m", Unit::M, "peak displacement of a bearing, in any direction", |i| i.stroke_peak_m),
+        Quantity::<Self>::real("stroke_peak_at_s", Unit::S, "time of this peak", |i| i.stroke_peak_at_s),
+        Quantity::<Self>::whole("stroke_bearing", "number of the bearing with this stroke, from 1", |i| i.stroke_bearing),
+        Quantity::<Self>::real("residual_stroke_m", Unit::M, "greatest displacement of a bearing at the end, in any direction", |i| i.residual_stroke_m),
         Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement of the mat across the row", |i| i.displacement_across_max_m).in_study(),
-        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement of the mat across the row, ≤ 0", |i| i.displacement_across_min_m).in_study(),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "most negative displacement of the mat across the row, ≤ 0", |i| i.displacement_across_min_m).in_study(),
         Quantity::<Self>::real("residual_across_m", Unit::M, "displacement of the mat across the row at the end", |i| i.residual_across_m).in_study(),
-        Quantity::<Self>::real("force_across_peak_n", Unit::N, "greatest force of bearings and dashpots across, without stops", |i| i.force_across_peak_n).in_study(),
+        Quantity::<Self>::real("force_across_peak_n", Unit::N, "peak force of bearings and dashpots across, without stops", |i| i.force_across_peak_n).in_study(),
     ];
 }
 
@@ -201,15 +201,15 @@ impl IsolationSummary {
         Quantity::<Self>::real("weight_n", Unit::N, "weight on the bearings", |i| i.weight_n),
         Quantity::<Self>::real("displacement_max_m", Unit::M, "greatest displacement of the mat to the right", |i| i.displacement_max_m).in_study(),
         Quantity::<Self>::real("displacement_min_m", Unit::M, "greatest displacement of the mat to the left", |i| i.displacement_min_m).in_study(),
-        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest force of bearings and dashpot, without stops", |i| i.force_peak_n).in_study(),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "peak force of bearings and dashpot, without stops", |i| i.force_peak_n).in_study(),
         Quantity::<Self>::real("residual_m", Unit::M, "displacement of the mat at the end", |i| i.residual_m).in_study(),
         Quantity::<Self>::real("hysteretic_j", Unit::J, "energy dissipated by yielding or friction", |i| i.hysteretic_j).in_study(),
         Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in the dashpot", |i| i.damped_j).in_study(),
-        Quantity::<Self>::optional("stop_force_peak_n", Unit::N, "greatest force of a stop; absent without stops", |i| i.stop_force_peak_n).in_study(),
-        Quantity::<Self>::real("limit_exceeded", Unit::NONE, "whether the mat moved beyond the limit of the bearings", |i| f64::from(u8::from(i.limit_exceeded))),
-        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest displacement of a bearing, in plan its length in any direction", Self::displacement_peak_m).not_in_summary().in_study(),
-        Quantity::<Self>::real("residual_stroke_m", Unit::M, "the same at the end", Self::residual_stroke_m).not_in_summary().in_study(),
-        Quantity::<Self>::optional("stroke_ratio", Unit::NONE, "greatest displacement of a bearing over limit; absent without limit", Self::stroke_ratio).not_in_summary().in_study(),
+        Quantity::<Self>::optional("stop_force_peak_n", Unit::N, "peak force of a stop; absent without stops", |i| i.stop_force_peak_n).in_study(),
+        Quantity::<Self>::real("limit_exceeded", Unit::NONE, "whether the mat exceeded the limit of the bearings", |i| f64::from(u8::from(i.limit_exceeded))),
+        Quantity::<Self>::real("stroke_peak_m", Unit::M, "peak displacement of a bearing, with a plan in any direction", Self::displacement_peak_m).not_in_summary().in_study(),
+        Quantity::<Self>::real("residual_stroke_m", Unit::M, "greatest displacement of a bearing at the end", Self::residual_stroke_m).not_in_summary().in_study(),
+        Quantity::<Self>::optional("stroke_ratio", Unit::NONE, "ratio of peak displacement of a bearing to limit; absent without limit", Self::stroke_ratio).not_in_summary().in_study(),
     ];
 }
 
@@ -230,8 +230,8 @@ pub struct WallSummary {
 impl WallSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement, either sign", |w| w.displacement_peak_m),
-        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest total force of the contacts of a gap on it", |w| w.force_peak_n),
+        Quantity::<Self>::real("displacement_peak_m", Unit::M, "peak displacement", |w| w.displacement_peak_m),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest total contact force of a gap on the wall", |w| w.force_peak_n),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in its dashpot", |w| w.dissipated_j),
     ];
 }

@@ -24,7 +24,7 @@ pub struct JointSummary {
 impl JointSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("shear_peak_n", Unit::N, "greatest shear of the core, either sign", |j| j.shear_peak_n),
+        Quantity::<Self>::real("shear_peak_n", Unit::N, "peak shear of the joint core", |j| j.shear_peak_n),
     ];
 }
 
@@ -43,6 +43,6 @@ pub struct JointRatio {
 impl JointRatio {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("shear", Unit::NONE, "greatest shear over shear capacity under the compression of the same instant", |r| r.shear),
+        Quantity::<Self>::real("shear", Unit::NONE, "greatest ratio of shear to shear capacity under the simultaneous compression", |r| r.shear),
     ];
 }

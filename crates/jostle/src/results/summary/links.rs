@@ -35,11 +35,11 @@ pub struct LinkSummary {
 impl LinkSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("stiffness_n_m", Unit::N_PER_M, "stiffness of each spring; of links that slip or yield, that before", |l| l.stiffness_n_m),
-        Quantity::<Self>::real("damping_n_s_m", Unit::NS_PER_M, "damping of each dashpot; with an exponent α in N·(s/m)^α", |l| l.damping_n_s_m),
+        Quantity::<Self>::real("stiffness_n_m", Unit::N_PER_M, "stiffness of each spring; for links that slip or yield, the initial stiffness", |l| l.stiffness_n_m),
+        Quantity::<Self>::real("damping_n_s_m", Unit::NS_PER_M, "damping coefficient of each dashpot; with an exponent α in N·(s/m)^α", |l| l.damping_n_s_m),
         Quantity::<Self>::real("exponent", Unit::NONE, "exponent α of viscous links, otherwise 1", |l| l.exponent),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any of them", |l| l.peak_force_n),
-        Quantity::<Self>::real("force_peak_n", Unit::N, "the same, under the name of the other peaks", |l| l.force_peak_n).in_study(),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "the same as peak_force_n, named like the other peaks", |l| l.force_peak_n).in_study(),
         Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest change of length of any of them", |l| l.stroke_peak_m).in_study(),
         Quantity::<Self>::real("speed_peak_m_s", Unit::M_S, "greatest rate of change of length of any of them", |l| l.speed_peak_m_s),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in dashpots and sliders", |l| l.dissipated_j).in_study(),
@@ -71,7 +71,7 @@ impl LinkFloorSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("height_m", Unit::M, "height above the base, or above the datum of elevations", |l| l.height_m),
         Quantity::<Self>::real("peak_force_n", Unit::N, "force of greatest magnitude, positive in compression", |l| l.peak_force_n),
-        Quantity::<Self>::real("peak_force_at_s", Unit::S, "its instant", |l| l.peak_force_at_s),
+        Quantity::<Self>::real("peak_force_at_s", Unit::S, "time of this peak", |l| l.peak_force_at_s),
         Quantity::<Self>::real("peak_stroke_m", Unit::M, "greatest change of length", |l| l.peak_stroke_m),
         Quantity::<Self>::real("peak_speed_m_s", Unit::M_S, "greatest rate of change of length", |l| l.peak_speed_m_s),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the dashpot or the slider", |l| l.dissipated_j),

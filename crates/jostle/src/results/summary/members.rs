@@ -64,14 +64,14 @@ pub struct MemberComparison {
 impl MemberComparison {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("compression_peak_n", Unit::N, "greatest compression with contact", |m| m.compression_peak_n),
-        Quantity::<Self>::real("shear_peak_n", Unit::N, "greatest shear with contact, either sign", |m| m.shear_peak_n),
-        Quantity::<Self>::real("moment_peak_n_m", Unit::NM, "greatest moment with contact, either sign", |m| m.moment_peak_n_m),
-        Quantity::<Self>::real("compression_peak_without_contact_n", Unit::N, "greatest compression without contact", |m| m.compression_peak_without_contact_n),
-        Quantity::<Self>::real("shear_peak_without_contact_n", Unit::N, "greatest shear without contact, either sign", |m| m.shear_peak_without_contact_n),
-        Quantity::<Self>::real("moment_peak_without_contact_n_m", Unit::NM, "greatest moment without contact, either sign", |m| m.moment_peak_without_contact_n_m),
-        Quantity::<Self>::optional("shear_amplification", Unit::NONE, "greatest shear with contact over that without", |m| m.shear_amplification),
-        Quantity::<Self>::optional("moment_amplification", Unit::NONE, "greatest moment with contact over that without", |m| m.moment_amplification),
+        Quantity::<Self>::real("compression_peak_n", Unit::N, "peak compression with contact", |m| m.compression_peak_n),
+        Quantity::<Self>::real("shear_peak_n", Unit::N, "peak shear with contact", |m| m.shear_peak_n),
+        Quantity::<Self>::real("moment_peak_n_m", Unit::NM, "peak moment with contact", |m| m.moment_peak_n_m),
+        Quantity::<Self>::real("compression_peak_without_contact_n", Unit::N, "peak compression without contact", |m| m.compression_peak_without_contact_n),
+        Quantity::<Self>::real("shear_peak_without_contact_n", Unit::N, "peak shear without contact", |m| m.shear_peak_without_contact_n),
+        Quantity::<Self>::real("moment_peak_without_contact_n_m", Unit::NM, "peak moment without contact", |m| m.moment_peak_without_contact_n_m),
+        Quantity::<Self>::optional("shear_amplification", Unit::NONE, "ratio of peak shear with contact to that without", |m| m.shear_amplification),
+        Quantity::<Self>::optional("moment_amplification", Unit::NONE, "ratio of peak moment with contact to that without", |m| m.moment_amplification),
     ];
 }
 
@@ -104,8 +104,8 @@ impl ForcesSummary {
         Quantity::<Self>::real("axial_n", Unit::N, "axial force, positive in tension", |f| f.axial_n),
         Quantity::<Self>::real("shear_n", Unit::N, "shear, with its sign", |f| f.shear_n),
         Quantity::<Self>::real("moment_n_m", Unit::NM, "moment, with its sign", |f| f.moment_n_m),
-        Quantity::<Self>::optional("shear_across_n", Unit::N, "shear in the plane across, of a member of a space frame", |f| f.shear_across_n),
-        Quantity::<Self>::optional("moment_across_n_m", Unit::NM, "moment in the plane across, of a member of a space frame", |f| f.moment_across_n_m),
+        Quantity::<Self>::optional("shear_across_n", Unit::N, "shear in the plane across, for a member of a space frame", |f| f.shear_across_n),
+        Quantity::<Self>::optional("moment_across_n_m", Unit::NM, "moment in the plane across, for a member of a space frame", |f| f.moment_across_n_m),
     ];
 }
 
@@ -153,7 +153,7 @@ impl SectionSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("axial_max_n", Unit::N, "greatest axial force, positive in tension", |s| s.axial_max_n),
-        Quantity::<Self>::real("axial_min_n", Unit::N, "least axial force, negative in compression", |s| s.axial_min_n),
+        Quantity::<Self>::real("axial_min_n", Unit::N, "smallest axial force, negative in compression", |s| s.axial_min_n),
         Quantity::<Self>::real("shear_peak_n", Unit::N, "greatest shear", |s| s.shear_peak_n),
         Quantity::<Self>::real("moment_peak_n_m", Unit::NM, "greatest moment", |s| s.moment_peak_n_m),
     ];
@@ -179,7 +179,7 @@ impl StruckSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("height_m", Unit::M, "height above the base", |s| s.height_m),
-        Quantity::<Self>::whole("impact_count", "impacts on the point", |s| s.impact_count),
-        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest contact force on it", |s| s.peak_force_n),
+        Quantity::<Self>::whole("impact_count", "number of impacts on the point", |s| s.impact_count),
+        Quantity::<Self>::real("peak_force_n", Unit::N, "greatest contact force on the point", |s| s.peak_force_n),
     ];
 }

@@ -138,14 +138,14 @@ impl Summary {
     pub const POUNDING: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("impact_count", "impacts of all gaps", |s| s.gaps.iter().map(|gap| gap.impact_count).sum()).not_in_summary().in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force of any contact", |s| s.gaps.iter().map(|gap| gap.peak_force_n).fold(0.0, f64::max)).not_in_summary().in_study(),
-        Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |s| s.gaps.iter().filter_map(|gap| gap.first_impact_s).min_by(f64::total_cmp)).not_in_summary().in_study(),
+        Quantity::<Self>::optional("first_impact_s", Unit::S, "time of the first impact", |s| s.gaps.iter().filter_map(|gap| gap.first_impact_s).min_by(f64::total_cmp)).not_in_summary().in_study(),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of all contact forces", |s| s.gaps.iter().fold(0.0, |sum, gap| sum + gap.impulse_n_s())).not_in_summary().in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any contact", |s| s.gaps.iter().map(GapSummary::closing_peak_m).fold(0.0, f64::max)).not_in_summary().in_study(),
     ];
 
     /// What the checks found.
     pub const CHECKS: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("result_checks", "checks of the results, B1 to B12, that gave a note or a warning", |s| s.checks.iter().filter(|check| check.id.starts_with('B') && check.grade >= Grade::Note).count()).not_in_summary().in_study(),
+        Quantity::<Self>::whole("result_checks", "number of result checks, B1 to B12, that gave a note or a warning", |s| s.checks.iter().filter(|check| check.id.starts_with('B') && check.grade >= Grade::Note).count()).not_in_summary().in_study(),
     ];
 }
 
@@ -176,11 +176,11 @@ pub struct MotionSummary {
 impl MotionSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("points", "values of the record; 0 for analytic waves", |m| m.points),
+        Quantity::<Self>::whole("points", "number of values in the record; 0 for analytic waves", |m| m.points),
         Quantity::<Self>::real("step_s", Unit::S, "time step of the record; 0 for analytic waves", |m| m.step_s),
         Quantity::<Self>::real("pga_m_s2", Unit::M_S2, "peak ground acceleration, after scaling", |m| m.pga_m_s2).in_study(),
-        Quantity::<Self>::optional("pga_across_m_s2", Unit::M_S2, "peak of the motion across, after scaling", |m| m.pga_across_m_s2),
-        Quantity::<Self>::real("scale", Unit::NONE, "factor on the record, negative if reversed", |m| m.scale),
+        Quantity::<Self>::optional("pga_across_m_s2", Unit::M_S2, "peak ground acceleration across, after scaling", |m| m.pga_across_m_s2),
+        Quantity::<Self>::real("scale", Unit::NONE, "scale factor of the record, negative if reversed", |m| m.scale),
         Quantity::<Self>::real("duration_s", Unit::S, "length of the analysis", |m| m.duration_s),
     ];
 }

@@ -30,11 +30,11 @@ impl PanelsSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("total", "infill panels", |p| p.total),
-        Quantity::<Self>::optional("drift_peak", Unit::NONE, "greatest drift of a bay whose panel is judged", |p| p.drift_peak).in_study(),
-        Quantity::<Self>::optional("damage_state", Unit::NONE, "greatest damage state by drift, 0 to 4", |p| p.damage_state.map(|state| state as f64)).in_study(),
-        Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "greatest inertia force across the plane of a panel over what it bears", |p| p.out_of_plane_ratio).in_study(),
-        Quantity::<Self>::whole("fallen", "panels that fell out and left the model", |p| p.fallen).in_study(),
-        Quantity::<Self>::optional("first_fall_s", Unit::S, "when the first one fell; absent if none did", |p| p.first_fall_s).in_study(),
+        Quantity::<Self>::optional("drift_peak", Unit::NONE, "greatest drift of a bay with damage states", |p| p.drift_peak).in_study(),
+        Quantity::<Self>::optional("damage_state", Unit::NONE, "greatest damage state from drift, 0 to 4", |p| p.damage_state.map(|state| state as f64)).in_study(),
+        Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "greatest ratio of out-of-plane inertia force to capacity of a panel", |p| p.out_of_plane_ratio).in_study(),
+        Quantity::<Self>::whole("fallen", "panels that fell out and were removed from the model", |p| p.fallen).in_study(),
+        Quantity::<Self>::optional("first_fall_s", Unit::S, "time at which the first panel fell out; absent if none did", |p| p.first_fall_s).in_study(),
     ];
 }
 

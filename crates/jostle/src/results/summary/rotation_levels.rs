@@ -24,10 +24,10 @@ pub struct RotationLevelsSummary {
 impl RotationLevelsSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("members", "members with limits of the rotation of their hinges", |r| r.members),
-        Quantity::<Self>::whole("beyond_io", "those that went beyond immediate occupancy, or a higher level", |r| r.beyond_io).in_study(),
-        Quantity::<Self>::whole("beyond_ls", "those that went beyond life safety, or a higher level", |r| r.beyond_ls).in_study(),
-        Quantity::<Self>::whole("beyond_cp", "those that went beyond collapse prevention", |r| r.beyond_cp).in_study(),
+        Quantity::<Self>::whole("members", "members that have rotation limits", |r| r.members),
+        Quantity::<Self>::whole("beyond_io", "members that exceeded immediate occupancy or a higher level", |r| r.beyond_io).in_study(),
+        Quantity::<Self>::whole("beyond_ls", "members that exceeded life safety or a higher level", |r| r.beyond_ls).in_study(),
+        Quantity::<Self>::whole("beyond_cp", "members that exceeded collapse prevention", |r| r.beyond_cp).in_study(),
     ];
 }
 
@@ -54,8 +54,8 @@ pub struct MemberLevel {
 impl MemberLevel {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("rotation_rad", Unit::RAD, "greatest rotation of its ends, either sign", |m| m.rotation_rad),
-        Quantity::<Self>::real("ratio", Unit::NONE, "greatest rotation over the limit of the highest stated level", |m| m.ratio),
+        Quantity::<Self>::real("rotation_rad", Unit::RAD, "peak rotation of its ends", |m| m.rotation_rad),
+        Quantity::<Self>::real("ratio", Unit::NONE, "ratio of peak rotation to the limit of the highest given level", |m| m.ratio),
     ];
 }
 
@@ -75,7 +75,7 @@ pub struct ReachedLevel {
 impl ReachedLevel {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("limit_rad", Unit::RAD, "greatest rotation of the level", |l| l.limit_rad),
-        Quantity::<Self>::optional("beyond_s", Unit::S, "when an end of the member first exceeded it; absent if none did", |l| l.beyond_s),
+        Quantity::<Self>::real("limit_rad", Unit::RAD, "rotation limit of the level", |l| l.limit_rad),
+        Quantity::<Self>::optional("beyond_s", Unit::S, "time at which an end of the member first exceeded it; absent if none did", |l| l.beyond_s),
     ];
 }

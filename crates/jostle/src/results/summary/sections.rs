@@ -86,9 +86,9 @@ impl FibreSummary {
 impl StrainLimitSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("strain_limit", Unit::NONE, "strain that is judged: of concrete in compression, of bars in tension", |s| s.strain_limit),
-        Quantity::<Self>::real("strain", Unit::NONE, "greatest strain of these fibres", |s| s.strain),
-        Quantity::<Self>::optional("passed_s", Unit::S, "when they first passed it; absent if they did not", |s| s.passed_s),
+        Quantity::<Self>::real("strain_limit", Unit::NONE, "strain limit: of concrete in compression, of bars in tension", |s| s.strain_limit),
+        Quantity::<Self>::real("strain", Unit::NONE, "peak strain of these fibres", |s| s.strain),
+        Quantity::<Self>::optional("passed_s", Unit::S, "time at which they first exceeded it; absent if they did not", |s| s.passed_s),
     ];
 }
 
@@ -110,10 +110,10 @@ pub struct FibreAcrossSummary {
 impl FibreAcrossSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("moment_across_max_n_m", Unit::NM, "greatest moment in the plane across, positive where it stretches the side further across", |s| s.moment_across_max_n_m),
-        Quantity::<Self>::real("moment_across_min_n_m", Unit::NM, "least moment in the plane across", |s| s.moment_across_min_n_m),
-        Quantity::<Self>::real("rotation_across_max_rad", Unit::RAD, "greatest rotation in the plane across, positive where it stretches the side further across", |s| s.rotation_across_max_rad),
-        Quantity::<Self>::real("rotation_across_min_rad", Unit::RAD, "least rotation in the plane across", |s| s.rotation_across_min_rad),
+        Quantity::<Self>::real("moment_across_max_n_m", Unit::NM, "greatest moment in the plane across, positive with tension on the side further across", |s| s.moment_across_max_n_m),
+        Quantity::<Self>::real("moment_across_min_n_m", Unit::NM, "most negative moment in the plane across", |s| s.moment_across_min_n_m),
+        Quantity::<Self>::real("rotation_across_max_rad", Unit::RAD, "greatest rotation in the plane across, positive with tension on the side further across", |s| s.rotation_across_max_rad),
+        Quantity::<Self>::real("rotation_across_min_rad", Unit::RAD, "most negative rotation in the plane across", |s| s.rotation_across_min_rad),
     ];
 }
 
@@ -122,18 +122,18 @@ impl FibreSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("axial_max_n", Unit::N, "greatest axial force, positive in tension", |s| s.axial_max_n),
-        Quantity::<Self>::real("axial_min_n", Unit::N, "least axial force: greatest compression, negative", |s| s.axial_min_n),
-        Quantity::<Self>::real("moment_max_n_m", Unit::NM, "greatest moment, positive where it stretches the right side", |s| s.moment_max_n_m),
-        Quantity::<Self>::real("moment_min_n_m", Unit::NM, "least moment", |s| s.moment_min_n_m),
-        Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, positive where it stretches the right side", |s| s.rotation_max_rad),
-        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "least rotation", |s| s.rotation_min_rad),
+        Quantity::<Self>::real("axial_min_n", Unit::N, "smallest axial force, that is greatest compression, negative", |s| s.axial_min_n),
+        Quantity::<Self>::real("moment_max_n_m", Unit::NM, "greatest moment, positive with tension on the right side", |s| s.moment_max_n_m),
+        Quantity::<Self>::real("moment_min_n_m", Unit::NM, "most negative moment", |s| s.moment_min_n_m),
+        Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, positive with tension on the right side", |s| s.rotation_max_rad),
+        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "most negative rotation", |s| s.rotation_min_rad),
         Quantity::<Self>::real("elongation_max_m", Unit::M, "greatest elongation of the axis", |s| s.elongation_max_m),
-        Quantity::<Self>::real("elongation_min_m", Unit::M, "least elongation: greatest shortening, negative", |s| s.elongation_min_m),
+        Quantity::<Self>::real("elongation_min_m", Unit::M, "greatest shortening of the axis, negative", |s| s.elongation_min_m),
         Quantity::<Self>::optional("concrete_strain", Unit::NONE, "greatest compressive strain of concrete", |s| s.concrete_strain),
-        Quantity::<Self>::optional("crushed_s", Unit::S, "when concrete first passed the strain at its strength", |s| s.crushed_s),
-        Quantity::<Self>::real("crushed_share", Unit::NONE, "share of the concrete fibres that passed it", |s| s.crushed_share),
-        Quantity::<Self>::optional("steel_strain", Unit::NONE, "greatest strain of bars in tension", |s| s.steel_strain),
-        Quantity::<Self>::optional("yielded_s", Unit::S, "when bars first yielded", |s| s.yielded_s),
+        Quantity::<Self>::optional("crushed_s", Unit::S, "time at which concrete first exceeded the strain at peak strength", |s| s.crushed_s),
+        Quantity::<Self>::real("crushed_share", Unit::NONE, "fraction of the concrete fibres that exceeded it", |s| s.crushed_share),
+        Quantity::<Self>::optional("steel_strain", Unit::NONE, "peak tensile strain of bars", |s| s.steel_strain),
+        Quantity::<Self>::optional("yielded_s", Unit::S, "time at which bars first yielded", |s| s.yielded_s),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |s| s.dissipated_j),
     ];
 }

@@ -25,9 +25,9 @@ impl ShearFailureSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("total", "columns that can fail in shear", |f| f.total),
-        Quantity::<Self>::whole("failed", "those that failed", |f| f.failed).in_study(),
-        Quantity::<Self>::optional("first_s", Unit::S, "instant of the first failure; absent if none failed", |f| f.first_s).in_study(),
-        Quantity::<Self>::real("dissipated_j", Unit::J, "energy that they dissipated", |f| f.dissipated_j),
+        Quantity::<Self>::whole("failed", "number of these that failed", |f| f.failed).in_study(),
+        Quantity::<Self>::optional("first_s", Unit::S, "time of the first failure; absent if none failed", |f| f.first_s).in_study(),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated by all of these", |f| f.dissipated_j),
     ];
 }
 
@@ -56,10 +56,10 @@ pub struct ShearFailure {
 impl ShearFailure {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("failed_s", Unit::S, "instant of failure in shear; 0 if self weight alone causes it", |f| f.failed_s),
-        Quantity::<Self>::real("strength_n", Unit::N, "strength when it failed, lowered by the ductility of its hinges by then", |f| f.strength_n),
-        Quantity::<Self>::real("slip_peak_m", Unit::M, "greatest displacement in the failed section", |f| f.slip_peak_m),
-        Quantity::<Self>::real("strength_left", Unit::NONE, "strength left at the end over that at failure", |f| f.strength_left),
-        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated there", |f| f.dissipated_j),
+        Quantity::<Self>::real("failed_s", Unit::S, "time of shear failure; 0 if self weight alone causes it", |f| f.failed_s),
+        Quantity::<Self>::real("strength_n", Unit::N, "shear strength at failure, reduced for the ductility of its hinges at that time", |f| f.strength_n),
+        Quantity::<Self>::real("slip_peak_m", Unit::M, "peak displacement in the failed section", |f| f.slip_peak_m),
+        Quantity::<Self>::real("strength_left", Unit::NONE, "ratio of strength at the end to that at failure", |f| f.strength_left),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated in the failed section", |f| f.dissipated_j),
     ];
 }

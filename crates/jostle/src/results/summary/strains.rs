@@ -50,12 +50,12 @@ impl StrainsSummary {
 impl StrainsSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::whole("ends", "ends of columns with strains that are judged", |s| s.ends),
-        Quantity::<Self>::whole("spalled", "those whose cover spalled", |s| s.spalled).in_study(),
-        Quantity::<Self>::whole("crushed", "those whose confined core was crushed", |s| s.crushed).in_study(),
-        Quantity::<Self>::whole("buckled", "those where bars passed the strain from which they buckle", |s| s.buckled).in_study(),
-        Quantity::<Self>::whole("fractured", "those where bars broke", |s| s.fractured).in_study(),
-        Quantity::<Self>::real("ratio", Unit::NONE, "greatest strain over its limit", |s| s.ratio).in_study(),
-        Quantity::<Self>::optional("first_s", Unit::S, "when the first limit was passed; absent if none was", |s| s.first_s).in_study(),
+        Quantity::<Self>::whole("ends", "column ends that have strain limits", |s| s.ends),
+        Quantity::<Self>::whole("spalled", "column ends whose cover spalled", |s| s.spalled).in_study(),
+        Quantity::<Self>::whole("crushed", "column ends whose confined core crushed", |s| s.crushed).in_study(),
+        Quantity::<Self>::whole("buckled", "column ends where bars exceeded the strain beyond which they buckle", |s| s.buckled).in_study(),
+        Quantity::<Self>::whole("fractured", "column ends where bars fractured", |s| s.fractured).in_study(),
+        Quantity::<Self>::real("ratio", Unit::NONE, "greatest ratio of strain to its limit", |s| s.ratio).in_study(),
+        Quantity::<Self>::optional("first_s", Unit::S, "time at which a limit was first exceeded; absent if none was", |s| s.first_s).in_study(),
     ];
 }
