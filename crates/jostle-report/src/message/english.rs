@@ -378,7 +378,7 @@ messages! {
     one_and_other(left, right) = "{left} and {right}";
     lower_building_m_high(height) = "· lower building {height} {m} high";
     the_line_marks_the_gap = "The line marks the gap.";
-    srss_and_abs_combine = "SRSS and ABS combine the peak displacements at possible contacts,";
+    srss_and_abs_combine = "SRSS and ABS combine the peak displacements at possible contacts";
     of_the_run_without_contact = "of the run without contact.";
     of_this_run_impacts_included = "of this run, impacts included.";
     codes_take_the_same_displacements = "Codes use the same displacements.";
