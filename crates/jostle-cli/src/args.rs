@@ -29,7 +29,7 @@ pub(crate) struct SchemaArgs {
     /// List every check instead: what it compares, limits, source, remedy
     #[arg(long, conflicts_with = "results")]
     pub(crate) checks: bool,
-    /// Print which kind of building has which feature instead, as a table in Markdown
+    /// Print a table of features by kind of building instead, in Markdown
     #[arg(long, conflicts_with_all = ["results", "checks"])]
     pub(crate) combinations: bool,
 }
@@ -62,7 +62,7 @@ pub(crate) struct ModelArgs {
     /// Angle in plan from x to the motion, counter-clockwise, for buildings with a plan: --angle 30deg
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     pub(crate) angle: Option<String>,
-    /// Accept values outside their usual ranges, as accept_unusual = true of the model file
+    /// Accept values outside their usual ranges, like accept_unusual = true in the model file
     #[arg(long)]
     pub(crate) accept_unusual: bool,
 }
@@ -71,7 +71,7 @@ pub(crate) struct ModelArgs {
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) model: ModelArgs,
-    /// Folder for site.svg, the drawing of buildings with a plan from above [default: jostle-out/MODEL]
+    /// Folder for site.svg, a plan view of the buildings, for models with plans [default: jostle-out/MODEL]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Replace site.svg even if jostle did not write it
@@ -93,36 +93,36 @@ pub(crate) struct RunArgs {
     /// Add the results of `jostle method` to the report
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) method: bool,
-    /// Add the greatest axial force, shear and moment of every column and beam of frames
+    /// Add the peak axial force, shear and moment of every column and beam of frames
     #[arg(long)]
     pub(crate) members: bool,
-    /// Add response spectra of every floor, with and without contact, as floor_spectra = true of the model file
+    /// Add response spectra of every floor, with and without contact, like floor_spectra = true in the model file
     #[arg(long)]
     pub(crate) floor_spectra: bool,
-    /// Compare reinforced columns and beams with their capacity by these rules, the first of which governs; includes
-    /// --members. Without rules: all, where ties are known
+    /// Compare reinforced columns and beams with their capacity by these rules; the first rule governs. Implies --members.
+    /// Without a rule: all rules, if ties are known
     #[arg(long, value_name = "RULE", num_args = 0..=1, default_missing_values = ShearRule::ALL.map(ShearRule::name), value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
     pub(crate) capacity: Vec<String>,
-    /// Run over the advised range of contact stiffness and with restitution ± 0.15 as well, and report the spread
+    /// Also run at both ends of the advised contact stiffness and with restitution ± 0.15, and report the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,
-    /// Add how every peak changes with these numbers of the model file, such as gap[0].width,motion.pga, and how far a straight line
-    /// holds; 23 runs for the first number and 22 for each other one
+    /// Add the derivative of every peak with respect to these values of the model file, such as gap[0].width,motion.pga, and the
+    /// range in which it is linear; 23 runs for the first value and 22 for each further one
     #[arg(long, value_name = "PATHS", value_delimiter = ',')]
     pub(crate) gradients: Vec<String>,
     /// Use this solver instead of that of the model
     #[arg(long, value_enum)]
     pub(crate) solver: Option<SolverName>,
-    /// Write report.pdf as well, printed by a Chromium that is installed
+    /// Also write report.pdf, printed by an installed Chromium browser
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) pdf: bool,
-    /// Paper of report.pdf
+    /// Paper size of report.pdf
     #[arg(long, value_name = "SIZE", default_value = "a4", value_parser = jostle_run::Paper::NAMES, requires = "pdf")]
     pub(crate) paper: String,
-    /// Write the numbers as an Excel workbook too: summary, buildings, floors, contacts, impacts, members
+    /// Also write an Excel workbook: summary, buildings, floors, contacts, impacts, members
     #[arg(long, value_name = "FILE")]
     pub(crate) xlsx: Option<PathBuf>,
-    /// Rule for the governing value of several records [default: that of the model, else of the code of its match, else
+    /// Rule for the governing value of several records [default: that of the model, else that of the code under match, else
     /// maximum]
     #[arg(long, value_name = "RULE", value_parser = jostle_motion::GoverningRule::NAMES)]
     pub(crate) governing: Option<String>,
@@ -141,7 +141,7 @@ pub(crate) struct RunArgs {
 /// Equations that advance a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum SolverName {
-    /// With automatic steps modal for elastic buildings and series for shear buildings that yield, otherwise Riccati
+    /// With automatic steps modal for elastic buildings and series for shear buildings that yield; otherwise riccati
     Auto,
     /// Riccati transfer recursion
     Riccati,
@@ -172,7 +172,7 @@ pub(crate) struct CollideArgs {
     /// Contact law
     #[arg(long, value_name = "LAW", default_value = "hertz-damp", value_parser = jostle_io::LAW_NAMES)]
     pub(crate) law: String,
-    /// A law of your own instead, such as "k * d^1.5 * (1 + 0.6 * v / v0)": d indentation, v its rate, v0 impact speed, k
+    /// A user-defined law instead, such as "k * d^1.5 * (1 + 0.6 * v / v0)": d indentation, v its rate, v0 impact speed, k
     /// stiffness, e restitution, m effective mass, in SI
     #[arg(long, value_name = "FORMULA", conflicts_with_all = ["law", "all", "damping", "variant", "yield_share", "design_speed", "thickness", "exponent", "restitution_is"])]
     pub(crate) formula: Option<String>,
@@ -188,7 +188,7 @@ pub(crate) struct CollideArgs {
     /// Closing speed at first contact
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) speed: String,
-    /// Contact stiffness in N/m^1.5 or N/m; for laws of the other family the one with the same secant at the greatest
+    /// Contact stiffness in N/m^1.5 or N/m; laws of the other family use the stiffness with the same secant at the greatest
     /// elastic Hertz indentation [default: 2e9 N/m^1.5]
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) stiffness: Option<String>,
@@ -207,7 +207,7 @@ pub(crate) struct CollideArgs {
     /// bilinear: yield indentation ÷ greatest design indentation
     #[arg(long, value_name = "NUMBER", default_value = "0.1")]
     pub(crate) yield_share: String,
-    /// bilinear: speed for which its stiffnesses are computed [default: --speed]
+    /// bilinear: impact speed used to compute its stiffnesses [default: --speed]
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) design_speed: Option<String>,
     /// rubber: thickness of the bumper
@@ -246,10 +246,10 @@ pub(crate) struct MethodArgs {
 #[command(after_help = "Either a model, or --width, --depth and --bars:\n  \
                   jostle section --width 500mm --depth 500mm --bars \"12 d20\" --axial-load 800kN --length 3.2m")]
 pub(crate) struct SectionArgs {
-    /// Model file, or the name of a built-in example: every reinforced member
+    /// Model file, or the name of a built-in example: analyses every reinforced member
     #[arg(conflicts_with_all = ["width", "depth", "bars"])]
     pub(crate) model: Option<PathBuf>,
-    /// Width, across the direction of bending
+    /// Width, perpendicular to the direction of bending
     #[arg(long, value_name = "QUANTITY", required_unless_present = "model")]
     pub(crate) width: Option<String>,
     /// Depth, in the direction of bending
@@ -264,7 +264,7 @@ pub(crate) struct SectionArgs {
     /// Grade HRB335 to HRB500, or yield strength
     #[arg(long, value_name = "GRADE", default_value = "HRB400")]
     pub(crate) steel: String,
-    /// Strength that belongs to a grade
+    /// Strength level of the grade
     #[arg(long, value_name = "LEVEL", default_value = jostle_section::StrengthLevel::NAMES[0], value_parser = jostle_section::StrengthLevel::NAMES)]
     pub(crate) strength: String,
     /// Concrete cover of the bars
@@ -297,7 +297,7 @@ pub(crate) struct PushoverArgs {
     /// Analyse only this building
     #[arg(long, value_name = "NAME")]
     pub(crate) building: Option<String>,
-    /// Load over the height: mass × first mode, mass, or mass × height
+    /// Load pattern over the height: mass × first mode, mass, or mass × height
     #[arg(long, value_enum, default_value_t = Spread::FirstMode)]
     pub(crate) pattern: Spread,
     /// Roof displacement ÷ height at which to stop

@@ -29,15 +29,15 @@ pub(crate) enum CityCommand {
     Check(CheckArgs),
     /// Write buildings, pairs of neighbours and blocks as tables
     Pairs(PairsArgs),
-    /// Draw gaps and buildings, shake every row with and without contact, and write the map
+    /// Sample gaps and buildings, run every row with and without contact, and write the map
     Run(RunArgs),
     /// Write the map and tables again from a run
     Report(FolderArgs),
-    /// Print a pair of a run as an ordinary model file
+    /// Print a pair of buildings from a run as a model file
     Model(ModelArgs),
     /// Print the table of structural types: capacity, storeys, damage drifts and hysteresis, with their sources
     Types,
-    /// Write a made-up city to try with: footprints and a city file
+    /// Write an example city: footprints and a city file
     Example(ExampleArgs),
 }
 
@@ -45,14 +45,14 @@ pub(crate) enum CityCommand {
 pub(crate) struct InventoryArgs {
     /// Footprints: GeoJSON, GeoParquet, or CSV with outlines as WKT or GeoJSON
     inventory: PathBuf,
-    /// Column of an attribute that has another name than the usual ones, such as storeys=FLOORS; attributes are id, footprint,
-    /// storeys, height, year and type
+    /// Column for an attribute whose column has another name, such as storeys=FLOORS; attributes are id, footprint, storeys,
+    /// height, year and type
     #[arg(long = "column", value_name = "ATTRIBUTE=NAME")]
     columns: Vec<String>,
-    /// Coordinates are metres, not degrees of longitude and latitude
+    /// Coordinates are in metres instead of degrees of longitude and latitude
     #[arg(long)]
     metres: bool,
-    /// Buildings no farther apart on the map are neighbours [default: "0.5 m"]
+    /// Buildings at most this far apart on the map are neighbours [default: "0.5 m"]
     #[arg(long, value_name = "QUANTITY")]
     reach: Option<String>,
 }
@@ -79,13 +79,13 @@ pub(crate) struct RunArgs {
     /// Folder for the results [default: the name of the city file with -city]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Draws of gaps and buildings for every motion, instead of those of the city file
+    /// Number of random draws of gaps and buildings for every motion, instead of that of the city file
     #[arg(long)]
     draws: Option<usize>,
     /// Relative error of peaks, 0.01 or 0.001, instead of that of the city file
     #[arg(long)]
     tolerance: Option<f64>,
-    /// One share of the parts, such as 3/8; whoever finishes last writes the map
+    /// Run one share of the parts, such as 3/8; the last process to finish writes the map
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<(u64, u64)>,
     /// Threads [default: all]
@@ -124,7 +124,7 @@ pub(crate) struct ExampleArgs {
     /// Random seed
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Replace files that are there
+    /// Replace existing files
     #[arg(long)]
     force: bool,
 }

@@ -18,13 +18,13 @@ use crate::terminal;
 pub(crate) struct ClassesArgs {
     /// Classes file: classes, neighbours, gaps, motions; see how-to/classes in the documentation
     pub(crate) file: PathBuf,
-    /// Folder of the results, by default the name of the file
+    /// Folder for the results [default: the name of the file]
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Number of threads, by default one for every processor; results do not depend on it
+    /// Number of threads [default: one per core]; results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
     pub(crate) jobs: Option<u64>,
-    /// Read the file and report what is wrong with it; run nothing
+    /// Check the file and report errors; run nothing
     #[arg(long)]
     pub(crate) check: bool,
     /// Replace files that jostle did not write

@@ -25,7 +25,7 @@ use crate::terminal;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// Units of texts and pages: si for mm and kN, us for in and kip; without this, those that the model asks for
+    /// Units of texts and pages: si for mm and kN, us for in and kip; by default those of the model
     #[arg(long, global = true, value_name = "SYSTEM", value_parser = ["si", "us"])]
     pub(crate) units: Option<String>,
 }
@@ -60,28 +60,28 @@ pub(crate) enum Command {
     Modes(ModesArgs),
     /// Collide two free masses under one contact law, or under all laws
     Collide(Box<CollideArgs>),
-    /// Run a model on the recorded motion of a shake table and score it against the measurements
+    /// Run a model with the recorded motion of a shake table and compare it with the measurements
     Compare(crate::compare::CompareArgs),
     /// Estimate contact stiffness and restitution from slabs, material and colliding masses
     ContactAdvice(Box<crate::contact_advice::ContactAdviceArgs>),
     /// Write the model as a script for another program, to compare results
     Export(crate::export::ExportArgs),
-    /// Write a model file from the files of another program
+    /// Convert files of another program to a model file
     #[command(subcommand)]
     Import(Box<crate::import::ImportCommand>),
     /// Print how accurate each solver formulation is on your model
     Method(MethodArgs),
     /// Compute cracking and yield of reinforced-concrete sections, by formulas and by fibre analysis
     Section(SectionArgs),
-    /// Find which neighbours of a city collide, from footprints to a map
+    /// Find which neighbouring buildings of a city collide, from footprints to a map
     #[command(subcommand)]
     City(Box<crate::city::CityCommand>),
-    /// Show, convert, make and select ground motions
+    /// Show, convert, generate and select ground motions
     #[command(subcommand)]
     Motion(Box<crate::motion::MotionCommand>),
     /// Run many cases of one model; any key of the model file can vary
     Study(crate::study::StudyArgs),
-    /// Fragility of classes of buildings (HAZUS, GEM) with and without pounding
+    /// Compute fragility of building classes (HAZUS, GEM) with and without pounding
     Classes(crate::classes::ClassesArgs),
     /// Find the gap needed to avoid pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
@@ -89,7 +89,7 @@ pub(crate) enum Command {
     Size(Box<crate::size::SizeArgs>),
     /// Open a local page that runs the model after every change
     Live(crate::live::LiveArgs),
-    /// Serve check, run, gap, study and explain to an assistant, by the Model Context Protocol over standard input and output
+    /// Serve check, run, gap, study and explain to an assistant, with the Model Context Protocol over standard input and output
     Mcp(crate::mcp::McpArgs),
     /// Run a pushover analysis to a target drift or loss of strength
     Pushover(PushoverArgs),

@@ -17,13 +17,13 @@ pub(crate) struct CompareArgs {
     model: PathBuf,
     /// Measurements in the NEES .asc layout
     data: PathBuf,
-    /// Which columns of the data belong to which results
+    /// File that assigns columns of the data to results
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
     /// Folder for the results [default: jostle-out/MODEL-compare; with --json, none]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Accept values outside their usual ranges, as accept_unusual = true of the model file
+    /// Accept values outside their usual ranges, like accept_unusual = true in the model file
     #[arg(long)]
     accept_unusual: bool,
     /// Print compare.json and nothing else

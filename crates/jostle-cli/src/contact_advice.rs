@@ -18,7 +18,7 @@ pub(crate) struct ContactAdviceArgs {
     /// Colliding masses, such as "40 t" or "40 t, 60 t" (left, right); needed without a model
     #[arg(long, value_name = "QUANTITY")]
     mass: Option<String>,
-    /// Length of the slabs in the direction of the impact; with --width and --thickness: E A/L and waves
+    /// Length of the slabs in the direction of the impact; with --width and --thickness it adds estimates from E A/L and waves
     #[arg(long, value_name = "QUANTITY")]
     length: Option<String>,
     /// Width of the slabs in contact
@@ -27,7 +27,7 @@ pub(crate) struct ContactAdviceArgs {
     /// Thickness of the slabs
     #[arg(long, value_name = "QUANTITY")]
     thickness: Option<String>,
-    /// Concrete, which gives the modulus: C30, C30/37, "f'c = 4 ksi"
+    /// Concrete grade, which gives the modulus: C30, C30/37, "f'c = 4 ksi"
     #[arg(long, value_name = "GRADE")]
     concrete: Option<String>,
     /// Modulus of elasticity instead [default: 30 GPa]

@@ -29,21 +29,20 @@ pub(crate) struct GapArgs {
     /// Precision of the gap
     #[arg(long, value_name = "QUANTITY", default_value = "0.1mm")]
     tolerance: String,
-    /// Structural system for GB 50011: of the two buildings, the one that needs the wider joint [default: codes.system of
-    /// the model, else frame]
+    /// Structural system for GB 50011: that of the building that requires the wider joint [default: codes.system of the model,
+    /// else frame]
     #[arg(long, value_name = "SYSTEM", value_parser = JointSystem::ALL.map(JointSystem::name))]
     system: Option<String>,
     /// List the rules of this code only; repeat for several [default: codes.show of the model, else all]
     #[arg(long, value_name = "CODE", value_parser = Code::ALL.map(Code::name))]
     code: Vec<String>,
-    /// Accept values outside their usual ranges, as accept_unusual = true of the model file
+    /// Accept values outside their usual ranges, like accept_unusual = true in the model file
     #[arg(long)]
     accept_unusual: bool,
-    /// Do not run the model with the gaps of the rules
+    /// Do not run the model with the gaps that the rules require
     #[arg(long)]
     no_outcomes: bool,
-    /// Also compute force and impacts at N equally spaced widths from zero to the smallest gap, 2 to 10000, as a page and a
-    /// table
+    /// Also compute force and impacts at N equally spaced widths from zero to the gap needed, 2 to 10000, as a page and a table
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     curve: Option<u32>,
     /// Folder for the curve [default: jostle-out/MODEL-gap; with --json, none]

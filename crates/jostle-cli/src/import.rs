@@ -36,20 +36,20 @@ pub(crate) enum ImportCommand {
     Etabs(TableArgs),
     /// Text models (.s2k, $2k), and .OUT and .LOG files of SAP2000
     Sap2000(TableArgs),
-    /// Run an OpenSeesPy script and write its building by its matrices; needs Python with jostle and openseespy
+    /// Run an OpenSeesPy script and write its building as matrices; requires Python with jostle and openseespy
     Opensees(ImportOpenseesArgs),
 }
 
 /// Files and what they do not say.
 #[derive(Debug, clap::Args)]
 pub(crate) struct TableArgs {
-    /// Files of one building, or of several: those of one building then have one name, such as A.xlsx and A.OUT
+    /// Files of one or several buildings; with several, files of one building must have the same name, such as A.xlsx and A.OUT
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Model file to write
     #[arg(long, value_name = "MODEL")]
     to: PathBuf,
-    /// Model in one plane along x or y, or in space [default: in space where the files suffice]
+    /// Plane model along x or y, or model in space [default: in space if the files have enough data]
     #[arg(long, value_enum)]
     direction: Option<DirectionName>,
     /// Stiffness from displacements under unit loads, from modes, from storey stiffnesses, or from a text model: its columns and
@@ -62,7 +62,7 @@ pub(crate) struct TableArgs {
     /// Load case of Story Stiffness
     #[arg(long, value_name = "NAME")]
     case: Option<String>,
-    /// Diaphragm of this building, where storeys have several
+    /// Diaphragm of this building, if storeys have several
     #[arg(long, value_name = "NAME")]
     diaphragm: Option<String>,
     /// Force of load cases named "FX STORY" and "FY STORY"
@@ -71,7 +71,7 @@ pub(crate) struct TableArgs {
     /// Moment of load cases named "MZ STORY"
     #[arg(long, value_name = "QUANTITY")]
     unit_moment: Option<String>,
-    /// Units of tables that have no row of them, such as "kN, m"
+    /// Units of tables that have no row of units, such as "kN, m"
     #[arg(long, value_name = "UNITS")]
     units: Option<String>,
     /// Replace files even if jostle did not write them

@@ -9,28 +9,28 @@ use crate::terminal;
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The script is a program and runs with your rights. What is not carried over is printed and stands in the model file.\n\
+    after_help = "The script is a program and runs with your permissions. Data that are not imported are printed and listed in the model file.\n\
                   JOSTLE_PYTHON names the interpreter [default: python3]"
 )]
 pub(crate) struct ImportOpenseesArgs {
-    /// Script for OpenSeesPy that builds the model
+    /// OpenSeesPy script that builds the model
     script: PathBuf,
-    /// Model file to write, .toml; the matrices are written beside it, .npz
+    /// Model file to write, .toml; the matrices are written next to it, .npz
     #[arg(long, value_name = "MODEL")]
     to: PathBuf,
     /// Name of the building [default: that of the script]
     #[arg(long)]
     name: Option<String>,
-    /// Horizontal direction of the script along which the buildings stand
+    /// Horizontal direction of the script along which the buildings are arranged
     #[arg(long, default_value = "x", value_parser = ["x", "y"])]
     direction: String,
-    /// Side on which the neighbour stands; for buildings without a plan
+    /// Side of the neighbour, for buildings without a plan
     #[arg(long, default_value = "right", value_parser = ["left", "right"])]
     side: String,
-    /// Force and length of the script, such as "kN, m" or "kip, in"; mass is force·s²/length
+    /// Force and length units of the script, such as "kN, m" or "kip, in"; mass is force·s²/length
     #[arg(long, value_name = "UNITS", default_value = "N, m")]
     units: String,
-    /// Node that is hit, instead of the outermost one of a floor; repeat for every floor
+    /// Node in contact, instead of the outermost node of a floor; repeat for every floor
     #[arg(long, value_name = "NODE")]
     port: Vec<u32>,
     /// Replace files that jostle did not write

@@ -24,13 +24,13 @@ pub(crate) struct LiveArgs {
     /// Do not open the browser
     #[arg(long)]
     no_open: bool,
-    /// Port on this machine; 0 takes any free one
+    /// Port on this machine; 0 uses any free port
     #[arg(long, default_value_t = 0)]
     port: u16,
-    /// Write the page with its engine inside to this file and end; it works without jostle and without a network
+    /// Write the page with its engine to this file and exit; the page works offline and without jostle
     #[arg(long, value_name = "FILE", conflicts_with_all = ["no_open", "port"])]
     export: Option<PathBuf>,
-    /// Engine for the exported page, as packaging/wasm writes it; without this, jostle.wasm.gz beside the program
+    /// Engine for the exported page, as packaging/wasm writes it; by default jostle.wasm.gz next to the program
     #[arg(long, value_name = "FILE", requires = "export")]
     module: Option<PathBuf>,
     /// Replace a file that jostle did not write

@@ -14,8 +14,8 @@ use crate::terminal;
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Keys and results have the names of `jostle study`. link, gap, contact, building and floor stand for the greatest\n\
-                  of their kind: floor.displacement_max_m. A key of a list without a number means all of its entries.\n\n  \
+    after_help = "Keys and results are named as in `jostle study`. link, gap, contact, building and floor mean the greatest value\n\
+                  of their kind: floor.displacement_max_m. A list key without an index means all of its entries.\n\n  \
                   jostle size mine.toml --vary \"link.damping=10 kN.s/m..10 MN.s/m\" --keep \"impact_count == 0\" --minimise link.force_peak_n\n  \
                   jostle size mine.toml --vary \"gap.width=5 mm..300 mm\" --keep \"impact_count == 0\" --minimise gap.width"
 )]
@@ -26,10 +26,10 @@ pub(crate) struct SizeArgs {
     /// several separated by commas, or repeat
     #[arg(long, value_name = "KEY", value_delimiter = ',', required = true)]
     vary: Vec<String>,
-    /// Keep this condition, such as "impact_count == 0" or "floor.displacement_max_m <= 50 mm"; repeat for several
+    /// Condition to meet, such as "impact_count == 0" or "floor.displacement_max_m <= 50 mm"; repeat for several
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
-    /// Minimise this: a key, a result, or a sum such as "2 * link.force_peak_n + gap.peak_force_n"
+    /// Quantity to minimise: a key, a result, or a sum such as "2 * link.force_peak_n + gap.peak_force_n"
     #[arg(long, value_name = "EXPRESSION", alias = "minimize")]
     minimise: String,
     /// Use these ground motions: a built-in name or a file; repeat for a set [default: those of the model]
@@ -38,10 +38,10 @@ pub(crate) struct SizeArgs {
     /// Scale the motions to this peak ground acceleration
     #[arg(long, value_name = "QUANTITY")]
     pga: Option<String>,
-    /// Run every motion with both signs: each counts as two records
+    /// Run every motion in both directions: each counts as two records
     #[arg(long)]
     both_signs: bool,
-    /// Of several records, the worst counts, or their mean
+    /// With several records, use the worst or the mean
     #[arg(long, value_name = "RULE", default_value = "worst", value_parser = Over::NAMES)]
     over: String,
     /// Seed of the search

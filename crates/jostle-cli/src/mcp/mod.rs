@@ -18,8 +18,8 @@ use server::Server;
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Tools: check, run, gap, study, explain, schema. They read files of this folder only and write none.\n\
-                  An assistant starts it itself; its settings name the command and the folder."
+    after_help = "Tools: check, run, gap, study, explain, schema. They read files of this folder only and write no files.\n\
+                  The assistant starts this command; its settings give the command and the folder."
 )]
 pub(crate) struct McpArgs {}
 

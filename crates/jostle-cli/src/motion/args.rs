@@ -18,7 +18,7 @@ pub(crate) enum MotionCommand {
     /// Generate an artificial motion
     #[command(subcommand)]
     Synth(SynthCommand),
-    /// Check a set of motions by the rules of the code [exit code 1 if it does not meet them]
+    /// Check a set of motions by the rules of a code [exit code 1 if it does not meet them]
     Select(SelectArgs),
 }
 
@@ -51,16 +51,16 @@ pub(crate) struct RecordArgs {
     /// Format of the file, if auto-detection is wrong
     #[arg(long, value_name = "FORMAT", help_heading = READING)]
     pub(crate) format: Option<String>,
-    /// Leave out lines at the top of a text file
+    /// Number of lines to skip at the top of a text file
     #[arg(long, value_name = "LINES", help_heading = READING)]
     pub(crate) skip: Option<usize>,
-    /// Last line of a text file that is read, counted from 1
+    /// Last line of a text file to read, counted from 1
     #[arg(long, value_name = "LINE", help_heading = READING)]
     pub(crate) last: Option<usize>,
     /// Values on a line of a text file, if they continue from line to line
     #[arg(long, value_name = "N", help_heading = READING)]
     pub(crate) per_line: Option<usize>,
-    /// What the lines of a text file hold: values, pairs of time and acceleration, or columns
+    /// Content of the lines of a text file: values, pairs of time and acceleration, or columns
     #[arg(long, value_name = "CONTENT", value_parser = RecordContent::ALL.map(RecordContent::key), help_heading = READING)]
     pub(crate) content: Option<String>,
     /// The same as --content pairs
@@ -89,9 +89,9 @@ pub(crate) struct ShowArgs {
 /// Where peaks of responses are read.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PeaksAt {
-    /// At steps, at least twenty per period, as in published tables; up to 1.2 % low
+    /// At time steps, at least twenty per period, as in published tables; up to 1.2 % too low
     Steps,
-    /// Anywhere in time: exact for piecewise linear acceleration
+    /// At and between time steps: exact for piecewise linear acceleration
     Between,
 }
 
@@ -105,10 +105,10 @@ pub(crate) struct SpectrumArgs {
     /// Periods in s [default: 200 from 0.02 to 10 s at equal ratios]
     #[arg(long, value_delimiter = ',')]
     pub(crate) periods: Vec<String>,
-    /// Where peaks are read
+    /// Where peaks are evaluated
     #[arg(long, value_enum, default_value = "steps")]
     pub(crate) peaks: PeaksAt,
-    /// Ductilities of bilinear oscillators, for inelastic spectra as well
+    /// Also compute inelastic spectra, for bilinear oscillators with these ductilities
     #[arg(long, value_delimiter = ',', value_name = "MU")]
     pub(crate) ductility: Vec<String>,
     /// Ratio of post-yield to elastic stiffness
@@ -138,10 +138,10 @@ pub(crate) struct ConvertArgs {
     pub(crate) record: RecordArgs,
     /// File to write: .at2 or .csv
     pub(crate) out: PathBuf,
-    /// Keep from this time on
+    /// Start of the part to keep
     #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) from: Option<String>,
-    /// Keep until this time
+    /// End of the part to keep
     #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) to: Option<String>,
     /// Fit a polynomial of this degree to the acceleration and subtract it
@@ -254,7 +254,7 @@ pub(crate) enum SynthCommand {
     Noise(SynthNoiseArgs),
     /// A near-fault velocity pulse
     Pulse(SynthPulseArgs),
-    /// A motion with a name, such as nanjing-artificial
+    /// A predefined motion, such as nanjing-artificial
     Recipe(SynthRecipeArgs),
 }
 

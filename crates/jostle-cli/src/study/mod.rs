@@ -32,7 +32,7 @@ const ANGLES: &str = "angles";
 pub(crate) struct StudyArgs {
     /// Study file (TOML or JSON), the name of a ready-made study, or a results folder to continue
     study: PathBuf,
-    /// Model of a ready-made study: a file, or the name of a built-in example; as --base
+    /// Model of a ready-made study: a file, or the name of a built-in example; the same as --base
     #[arg(conflicts_with = "base")]
     model: Option<PathBuf>,
     /// angles: step between angles of incidence [default: 5deg]
@@ -41,16 +41,16 @@ pub(crate) struct StudyArgs {
     /// angles: first angle, from x counter-clockwise [default: 0deg]
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     from: Option<String>,
-    /// angles: last angle [default: once around]
+    /// angles: last angle [default: full circle]
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     to: Option<String>,
-    /// angles: draw this column of the table over the angle; may be repeated [default: forces, impacts, peaks of buildings]
+    /// angles: plot this column of the table against the angle; may be repeated [default: forces, impacts, peaks of buildings]
     #[arg(long, value_name = "COLUMN")]
     quantity: Vec<String>,
     /// Use this base model: a file, or the name of a built-in example
     #[arg(long, value_name = "MODEL")]
     base: Option<PathBuf>,
-    /// Folder for the results [default: jostle-out/STUDY, for a ready-made study of a named model jostle-out/MODEL-STUDY]
+    /// Folder for the results [default: jostle-out/STUDY, or jostle-out/MODEL-STUDY for a ready-made study of a given model]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of threads [default: one per core]
@@ -65,10 +65,10 @@ pub(crate) struct StudyArgs {
     /// Omit the report and its tables when all cases are finished
     #[arg(long)]
     no_report: bool,
-    /// Write cases.csv also of more than 200 000 cases
+    /// Write cases.csv even for more than 200 000 cases
     #[arg(long, conflicts_with = "no_report")]
     csv: bool,
-    /// Go on in a folder that another build of jostle began
+    /// Continue in a folder that another build of jostle started
     #[arg(long)]
     any_build: bool,
     /// Check the study and print the number of cases and the columns; run nothing

@@ -217,7 +217,7 @@ fn matched_records_are_checked_unasked_and_others_are_not() {
         "{peaks:?}"
     );
     let page = std::fs::read_to_string(place.path().join("out/report.html")).expect("a report");
-    assert!(page.contains("scaled as the model matches it"));
+    assert!(page.contains("scaled by match of the model"));
 }
 
 #[test]

@@ -272,7 +272,9 @@ fn a_study_leaves_table_report_and_text() {
     assert_eq!(rows.lines().count(), 21);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap_or_default();
     assert!(
-        page.contains("Gaps of rules") && !page.contains("http://") && !page.contains("https://")
+        page.contains("Gaps required by rules")
+            && !page.contains("http://")
+            && !page.contains("https://")
     );
     // The second time there is nothing to compute.
     let again = run(&["study", "study.toml"]);

@@ -82,7 +82,7 @@ fn faults_say_what_to_write() {
         (
             "\"150 mm\"",
             "150",
-            &["a thickness of a panel of 150 m, expected 0.001 m to 10 m: is it 150 mm?"],
+            &["a panel thickness of 150 m, expected 0.001 m to 10 m: is it 150 mm?"],
         ),
         (
             "name = \"A\"",

@@ -174,7 +174,7 @@ fn results_outside_the_model_are_grey_and_said_to_be_so() {
     let text = render(&run.page());
     let said = text.find("Outside the model: no basis for design.");
     assert!(said.expect("it is said") < text.find("class=\"verdict muted\"").expect("a verdict"));
-    assert!(text.contains("J2 drifts 6.1\u{a0}%") || text.contains("J2 drifts 6.1 %"));
+    assert!(text.contains("J2: drift 6.1\u{a0}%") || text.contains("J2: drift 6.1 %"));
     assert!(
         text.contains("tiles muted") && text.contains("<section class=\"muted\" id=\"impacts\"")
     );

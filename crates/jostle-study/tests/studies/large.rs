@@ -278,7 +278,7 @@ fn sampled_studies_have_figures() {
     finish(&study, &out, false).expect("a page");
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     for text in [
-        "Results over inputs",
+        "Results against inputs",
         "16th to 84th percentile",
         "Rank correlation (Spearman)",
     ] {
