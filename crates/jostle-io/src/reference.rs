@@ -267,7 +267,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Crush,
         "`crush` of a gap",
-        "With the law `linear`; see [Contact laws](contact.md).",
+        "With the laws `linear` and `hertz`; see [Contact laws](contact.md).",
     ),
     (
         Section::Link,

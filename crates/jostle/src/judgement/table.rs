@@ -376,7 +376,7 @@ pub const CHECKS: &[Check] = &[
         unit: "m",
         limits: &[above(0.010, Note), above(0.050, Warning)],
         sources: &[JUDGEMENT],
-        remedy: "compare the contact stiffness with jostle contact-advice; if it agrees, edges crush before this force is reached (law = \"crushing\")",
+        remedy: "compare the contact stiffness with jostle contact-advice; if it agrees, edges crush before this force is reached (crush under [[gap]])",
         measure: impact::indentation,
     },
     Check {
