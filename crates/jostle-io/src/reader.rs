@@ -569,10 +569,15 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
     if sections.contains(&Section::SpaceFrame) && key == "coupling_beam" {
         return "beams between the walls of a space frame are those of beam_x and beam_y: they span between faces, and can have a hinge".into();
     }
-    for (section, kind) in other_kinds {
-        if sections.contains(&Section::Building) && keys_of(&[section]).any(|k| k.name == key) {
-            return format!("this key belongs to buildings of kind = \"{kind}\"");
-        }
+    let having = other_kinds
+        .iter()
+        .filter(|(section, _)| keys_of(&[*section]).any(|known| known.name == key));
+    let having: Vec<String> = having.map(|(_, kind)| format!("\"{kind}\"")).collect();
+    if sections.contains(&Section::Building) && !having.is_empty() {
+        return format!(
+            "this key belongs to buildings of kind = {}",
+            having.join(" or ")
+        );
     }
     if sections == [Section::Root] {
         let mut tables = TABLES_OF_ROOT.iter();

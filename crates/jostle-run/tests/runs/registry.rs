@@ -381,7 +381,11 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             compare(&fibred_in_space, &same_key.collect::<Vec<_>>());
         } else if matches!(
             owner.key,
-            "buildings[].parts[]" | "buildings[].sections[]" | "buildings[].sections[].limits[]"
+            "buildings[].parts[]"
+                | "buildings[].panels"
+                | "buildings[].strains"
+                | "buildings[].sections[]"
+                | "buildings[].sections[].limits[]"
         ) || owner.key.starts_with("buildings[].rotation_levels")
         {
             compare_together(&parts, owner);

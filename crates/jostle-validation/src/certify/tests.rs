@@ -302,6 +302,34 @@ fn dashpots_of_the_present_stiffness_jump_as_the_reference_says() {
     }
 }
 
+/// Frames with braces, panels, walls, fibres and feet that lift off keep their promise, two of each.
+#[test]
+fn frames_with_parts_that_yield_keep_their_promise() {
+    let family = Family::named("members");
+    let runs = [1e-2, 1e-3].map(|tolerance| (Solver::Riccati, tolerance));
+    let (mut compared, mut models) = (0, 0);
+    for number in 1..=10 {
+        let certified = certify(family, 5, number, &runs);
+        assert_eq!(certified.failed, None, "model {number}");
+        for run in &certified.runs {
+            for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
+                let Some(error) = error else { continue };
+                let (kind, name) = (quantity.kind, &quantity.name);
+                assert!(
+                    *error <= 3.0 * run.tolerance || run.warned,
+                    "model {number}, {kind} {name}: {error:e}"
+                );
+                compared += 1;
+            }
+        }
+        models += usize::from(certified.touches > 0);
+    }
+    assert!(
+        compared > 200 && models > 2,
+        "{compared} numbers, {models} models with impacts"
+    );
+}
+
 /// After an impact, accelerations must not oscillate from step to step.
 #[test]
 fn direct_accelerations_after_blows_meet_the_reference() {

@@ -2,8 +2,8 @@
 
 use super::soil::{self, Founded, Ground};
 use super::{
-    BuildingSystem, Floor, FoundationInPlan, FoundationPlace, SpringSupport, System, WallPlace,
-    finite,
+    BuildingSystem, Floor, FoundationInPlan, FoundationPlace, LimitedEnd, SpringSupport, System,
+    WallPlace, finite,
 };
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean, set_back};
@@ -95,7 +95,7 @@ impl System {
             if assembled.limited_ends.is_empty() && !building.rotation_limits.is_empty() {
                 faults.push(ModelFault {
                     path: format!("building[{index}].rotation_limit"),
-                    problem: "names no hinge of a member: the building is elastic, or its members have other lines and storeys; add hinges, or leave it out".into(),
+                    problem: LimitedEnd::none_named(&assembled.structure).into(),
                 });
                 continue;
             }

@@ -69,6 +69,24 @@ fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
 }
 
 impl LimitedEnd {
+    /// Why limits of a building name nothing, and what to do.
+    pub(super) fn none_named(building: &AssembledBuilding) -> &'static str {
+        let discretization = &building.discretization;
+        let places = &discretization.spring_places;
+        let of_members = |place: &SpringPlace| place_of(place, &discretization.frames).is_some();
+        match (places.is_empty(), places.iter().any(of_members)) {
+            (true, _) => {
+                "names no hinge of a member: the building is elastic; add hinges, or leave it out"
+            }
+            (_, true) => {
+                "names no hinge of a member: its members have other lines and storeys, or yield elsewhere; name theirs, or leave it out"
+            }
+            (_, false) => {
+                "limits rotations of columns, walls and beams with hinges of their own, and this building has none: what yields are storeys, fibres or other parts, which have drifts, limits of strains and damage states; leave it out, or describe the building as a frame with hinges"
+            }
+        }
+    }
+
     /// Every hinge of a building that a limit of the model names.
     pub(super) fn all(model: &Building, building: &AssembledBuilding) -> Vec<Self> {
         if model.rotation_limits.is_empty() {

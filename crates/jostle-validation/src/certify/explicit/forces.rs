@@ -97,7 +97,7 @@ impl Bodies {
             state.u.fill(f64::NAN);
         }
         if !self.massless.dofs.is_empty() {
-            let mut rates = std::mem::take(&mut state.v);
+            let mut rates = state.v.clone();
             self.massless.follow(self, phases, state, &mut rates);
             state.v = rates;
         }

@@ -22,8 +22,9 @@ pub(super) struct Massless {
 /// Newton's iterations, of which the last ones go half the way.
 const MOST_ITERATIONS: usize = 80;
 const WHOLE_ITERATIONS: usize = 25;
-/// Change of a displacement that counts as none, as a share of the greatest.
+/// Change of a displacement that counts as none, as a share of the greatest of all, which is this at least \[m\].
 const STILL: f64 = 1e-15;
+const LEAST: f64 = 1e-4;
 
 impl Massless {
     /// Those of a system.
@@ -152,12 +153,12 @@ impl Massless {
             } else {
                 0.5
             };
-            let (mut moved, mut most) = (0.0_f64, 1e-9_f64);
+            let mut moved = 0.0_f64;
             for (place, dof) in self.dofs.iter().enumerate() {
                 state.u[*dof] -= way * change[place];
                 moved = moved.max(change[place].abs());
-                most = most.max(state.u[*dof].abs());
             }
+            let most = state.u.iter().fold(LEAST, |most, u| most.max(u.abs()));
             if moved <= STILL * most {
                 return true;
             }

@@ -1,5 +1,7 @@
 //! Greatest and least values of what is promised, at five instants of every step and between them.
 
+use std::collections::BTreeSet;
+
 use jostle::system::{BuildingSystem, Direction};
 use jostle::{GroundMotion, System};
 
@@ -299,9 +301,12 @@ fn place(building: &BuildingSystem, signals: &mut Vec<Signal>) -> Place {
     let offset = building.offset;
     // Displacements above the base that carry horizontal restoring forces, with their heights.
     let nodes = building.discretization.stick_model.nodes.iter().enumerate();
-    let forces: Vec<(usize, f64)> = nodes
+    let mut forces: Vec<(usize, f64)> = nodes
         .filter_map(|(node, at)| Some((building.equations.horizontal(node)? + offset, at.y)))
         .collect();
+    // Joints of a floor that move together are one.
+    let mut seen = BTreeSet::new();
+    forces.retain(|(dof, _)| seen.insert(*dof));
     let sway = building
         .foundation
         .and_then(|foundation| Some([foundation.sway?, foundation.turning]));
