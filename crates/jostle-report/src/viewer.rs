@@ -33,7 +33,6 @@ impl Viewer {
         let sections = html! {
             div #part-tiles {}
             div #part-checks {}
-            p #accuracy.quiet {}
             (page::chart_section(true))
             div #part-hinges {}
             section { h2 { (message::impacts_title()) } (page::impact_panels()) div #part-impacts {} }
