@@ -438,7 +438,7 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     let several = summary.gaps.len() > 1;
     for gap in &summary.gaps {
         let pair = if several {
-            format!(" {}–{}", gap.between[0], gap.between[1])
+            format!(" {} ↔ {}", gap.between[0], gap.between[1])
         } else {
             String::new()
         };

@@ -68,7 +68,7 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                     tbody {
                         @for (i, (gap, contact, index, impact)) in rows.iter().enumerate() {
                             tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) data-contact=(index) {
-                                td { @if several { (gap.between[0]) "–" (gap.between[1]) ", " } (place(gap, contact)) }
+                                td { @if several { (gap.between[0]) " ↔ " (gap.between[1]) ", " } (place(gap, contact)) }
                                 @for value in cells(impact) { td.number { (value) } }
                             }
                         }
@@ -80,7 +80,7 @@ pub(crate) fn impacts(page: &Page) -> Markup {
             }
             @for gap in summary.gaps.iter().filter(|gap| gap.multiple_pounding_count > 0) {
                 p.quiet {
-                    @if several { (gap.between[0]) "–" (gap.between[1]) ": " }
+                    @if several { (gap.between[0]) " ↔ " (gap.between[1]) ": " }
                     (message::of_poundings_are_at_several(gap.multiple_pounding_count, gap.pounding_count, gap.most_at_once))
                 }
             }
@@ -132,7 +132,7 @@ fn restitution_note(page: &Page) -> Markup {
                     @for (i, (between, free)) in known.iter().enumerate() {
                         @if i > 0 { ", " }
                         b { (format::fixed(*free, 3)) }
-                        @if summary.gaps.len() > 1 { " (" (between[0]) "–" (between[1]) ")" }
+                        @if summary.gaps.len() > 1 { " (" (between[0]) " ↔ " (between[1]) ")" }
                     }
                     " " (message::under_this_contact_law()) " "
                 }

@@ -348,7 +348,7 @@ fn advice_comes_from_a_model_or_from_options() {
     let arguments = [&["contact-advice", "--mass", "40 t, 60 t"][..], &slabs].concat();
     let text = good(folder.path(), &arguments);
     for due in [
-        "left – right: 40.0 t against 60.0 t at 0.4 m/s",
+        "left ↔ right: 40.0 t against 60.0 t at 0.4 m/s",
         "waves, same peak force",
         "law = \"hertz-damp\"",
         "law = \"kelvin-no-tension\"",
