@@ -84,10 +84,10 @@ function drawCurves() {
   const pair = data.pairs[chosen];
   at("chosen").textContent = say("classes_chosen", { storeys: pair.storeys, class: pair.class, beside: pair.beside, neighbour: pair.neighbour, gap: digits(gap * unitOf("mm").factor) });
   const most = data.range[1];
-  const [width, height, margin] = [586, 316, { left: 46, right: 20, top: 12, bottom: 44 }];
+  const [width, height, margin] = [596, 316, { left: 56, right: 20, top: 12, bottom: 44 }];
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("classes_probability"), style: "max-width:640px" });
   const measure = { ends: [0, most], count: 4, name: `${data.measure} [g]`, lines: false };
-  const { px, py } = plot(svg("g", { class: "grid" }, picture), { width, height, margin, x: measure, y: { ends: [0, 1], count: 4 } });
+  const { px, py } = plot(svg("g", { class: "grid" }, picture), { width, height, margin, x: measure, y: { ends: [0, 1], count: 4, name: say("classes_probability_axis") } });
   data.states.forEach((name, state) => {
     const colour = `var(--c${state})`;
     for (const [own, dash] of [[find(chosen, null, state), "5 4"], [find(chosen, gap, state), "none"]]) {

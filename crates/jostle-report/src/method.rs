@@ -4,6 +4,7 @@ use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
+use crate::scale::name_upwards;
 use crate::{format, message};
 
 /// Which error of a row to show.
@@ -222,6 +223,7 @@ fn plot(survey: &MethodSurvey) -> Markup {
                     text x=(x) y=(top + height + 18.0) text-anchor="middle" { (step * 1e3) }
                 }
                 text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { (message::step_ms()) }
+                (name_upwards(message::relative_error_axis(), 12.0, top + height / 2.0))
             }
             line class="line dashed" style="--c:var(--ink)" x1=(left) x2=(left + width) y1=(place(0.02, LOST)[1]) y2=(place(0.02, LOST)[1]) {}
             @for (index, (name, colour, value)) in series.into_iter().enumerate() {

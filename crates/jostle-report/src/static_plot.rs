@@ -58,8 +58,7 @@ impl Plot {
         let across = [LEFT, WIDTH - RIGHT];
         let x = match self.logarithmic {
             true => Scale::logarithmic(x, across),
-            // Shapes that all lean to one side keep their zero.
-            false => Scale::new([x[0].min(0.0), x[1].max(0.0)], across, 1.0, 7.0),
+            false => Scale::new(x, across, 1.0, 7.0),
         };
         let y = [y[0].min(0.0), y[1].max(0.0)];
         let y = Scale::rounded(y, [height - BOTTOM, TOP], 1.0, 5.0);

@@ -200,6 +200,13 @@ fn shape_plot(building: &Building, shapes: &[ShownMode]) -> Plot {
     let levels: Vec<f64> = std::iter::once(building.base.elevation)
         .chain(building.floor_levels())
         .collect();
+    // Shapes that all lean to one side keep their zero.
+    let zero = Line {
+        name: String::new(),
+        points: vec![[0.0, format::HEIGHT.of(levels[0])]],
+        colour: 0,
+        dashed: false,
+    };
     let in_plan = matches!(building.structure, Structure::Tiers(_));
     let lines = shapes.iter().enumerate().map(|(index, mode)| {
         let points = mode.shape.iter().zip(&levels);
@@ -233,7 +240,7 @@ fn shape_plot(building: &Building, shapes: &[ShownMode]) -> Plot {
         y_label: format!("{} {}", message::height(), format::HEIGHT.bracketed()),
         logarithmic: false,
         aspect: 0.56,
-        lines: lines.collect(),
+        lines: lines.chain([zero]).collect(),
     }
 }
 

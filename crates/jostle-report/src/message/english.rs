@@ -50,6 +50,7 @@ messages! {
     classes_no_curve = "no curve";
     classes_chosen = "{class}, {storeys} storeys, next to {neighbour}, {beside} storeys; gap {gap} {mm}";
     classes_probability = "Probability of damage against intensity";
+    classes_probability_axis = "probability";
     classes_interval = "90 % interval [g]";
     classes_note = "note";
 
@@ -446,6 +447,7 @@ messages! {
     direct_stiffness = "direct stiffness";
     entries_of_k_before_factorising(stiffness_entries) = "{stiffness_entries}  entries of K before factorising";
     as_its_ordering_falls_out = "depends on the ordering";
+    relative_error_axis = "relative error of one step";
     relative_error_of_one_step = "Relative error of one step. Above the line at 1, no digit is correct.";
     step = "step";
     product = "product";
@@ -1255,7 +1257,7 @@ messages! {
     demand_over_intensity_file = "demand over intensity, curve by curve, with fractiles";
     incremental_dynamic_analysis = "Incremental dynamic analysis";
     thin_curves_heavy_median = "Thin: one curve for each record or other combination. Heavy: the median; dashed: the 16th and 84th percentile of the demand at each intensity.";
-    demand_up_to_intensity(demand, intensity) = "{demand} up to {intensity}";
+    demand_up_to_intensity(demand, intensity) = "{demand} against {intensity}";
     fragility_parameters_file = "medians and dispersions of the fragility curves, with their limits";
     fragility_points_file = "probabilities and bands, point by point";
     curves_by_multiple_stripes = "Maximum-likelihood lognormal curves (multiple stripes); dots are observed shares.";

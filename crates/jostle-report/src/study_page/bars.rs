@@ -36,7 +36,7 @@ pub struct Bar {
 const WIDTH: f64 = 520.0;
 const LEFT: f64 = 170.0;
 const RIGHT: f64 = 72.0;
-const ROW: f64 = 34.0;
+const ROW: f64 = 40.0;
 /// Room for the base value above, and for ticks and their title below.
 const TOP: f64 = 20.0;
 const BOTTOM: f64 = 40.0;
@@ -79,15 +79,15 @@ pub(super) fn figure(bars: &Bars) -> Markup {
                 }
                 @for (row, bar) in bars.bars.iter().enumerate() {
                     @let y = TOP + ROW * row as f64 + 4.0;
-                    text x=(LEFT - 8.0) y=(y + 17.0) text-anchor="end" { (short(&bar.name)) title { (bar.name) } }
+                    text x=(LEFT - 8.0) y=(y + 19.0) text-anchor="end" { (short(&bar.name)) title { (bar.name) } }
                     @for (index, end) in bar.ends.iter().enumerate() {
                         @let (from, to) = (px(bars.centre.min(*end)), px(bars.centre.max(*end)));
-                        @let top = y + 12.0 * index as f64;
-                        rect.study-bar x=(format!("{from:.1}")) y=(top) width=(format!("{:.1}", (to - from).max(0.8))) height="11" style=(format!("--c:var(--c{index})")) { title { (bar.name) ", " (bars.legend[index]) ": " (number(*end)) " " (bars.value.unit) } }
+                        @let top = y + 15.0 * index as f64;
+                        rect.study-bar x=(format!("{from:.1}")) y=(top) width=(format!("{:.1}", (to - from).max(0.8))) height="13" style=(format!("--c:var(--c{index})")) { title { (bar.name) ", " (bars.legend[index]) ": " (number(*end)) " " (bars.value.unit) } }
                         @if let Some(limits) = bar.limits {
-                            line.study-limits x1=(format!("{:.1}", px(limits[index][0]))) x2=(format!("{:.1}", px(limits[index][1]))) y1=(top + 5.5) y2=(top + 5.5) {}
+                            line.study-limits x1=(format!("{:.1}", px(limits[index][0]))) x2=(format!("{:.1}", px(limits[index][1]))) y1=(top + 6.5) y2=(top + 6.5) {}
                         }
-                        text x=(WIDTH - RIGHT + 6.0) y=(top + 9.5) { (beside(*end, &bars.value.unit)) }
+                        text x=(WIDTH - RIGHT + 6.0) y=(top + 11.0) { (beside(*end, &bars.value.unit)) }
                     }
                 }
                 line.study-axis x1=(px(bars.centre)) x2=(px(bars.centre)) y1=(TOP - 4.0) y2=(below) {}

@@ -43,8 +43,8 @@ const RIGHT: f64 = 78.0;
 const BOTTOM: f64 = 44.0;
 /// Room for the title of the upward axis.
 const TOP: f64 = 24.0;
-/// Width of a letter of the numbers in cells.
-const LETTER: f64 = 6.4;
+/// Width of a letter of the numbers in cells, and of smaller ones where these do not fit.
+const LETTERS: [f64; 2] = [7.0, 6.0];
 /// Widest cell.
 const WIDEST: f64 = 90.0;
 /// Steps of the colour bar.
@@ -155,7 +155,9 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
     // Numbers stand in all cells or in none.
     let longest = present().map(|value| number(value).chars().count()).max();
     let narrowest = across.edges.windows(2).map(|pair| pair[1] - pair[0]);
-    let written = narrowest.fold(f64::INFINITY, f64::min) >= LETTER * longest.unwrap_or(0) as f64;
+    let narrowest = narrowest.fold(f64::INFINITY, f64::min);
+    let [fits, fits_small] =
+        LETTERS.map(|letter| narrowest >= letter * longest.unwrap_or(0) as f64);
     html! {
         figure.study-map {
             figcaption { span.chart-title { (format::capital(&map.value.name)) } @if !map.value.unit.is_empty() { span.unit { " [" (map.value.unit) "]" } } }
@@ -174,9 +176,9 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
                     } @else {
                         (rect(x, y, size, one, shade, false, &format!("{place}: {said} ({})", one.cases)))
                     }
-                    @if written && size[1] >= 13.0 {
+                    @if fits_small && size[1] >= 13.0 {
                         @if let Some(value) = one.value {
-                            text.study-number.on-dark[shade > 0.5] x=(x + 0.5 * size[0]) y=(y + 0.5 * size[1] + 4.0) text-anchor="middle" { (number(value)) }
+                            text.study-number.small[!fits].on-dark[shade > 0.5] x=(x + 0.5 * size[0]) y=(y + 0.5 * size[1] + 4.0) text-anchor="middle" { (number(value)) }
                         }
                     }
                 }

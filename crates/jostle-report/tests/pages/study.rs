@@ -143,7 +143,7 @@ fn axes_have_titles_and_rankings_their_base_and_ticks() {
     assert!(text.contains(&format!("x=\"{}\" y=\"11\"", at(100.0))));
     for (value, label) in [(80.0, "80"), (90.0, "90"), (120.0, "120"), (130.0, "130")] {
         let tick = format!(
-            "x=\"{}\" y=\"69.0\" text-anchor=\"middle\">{label}<",
+            "x=\"{}\" y=\"75.0\" text-anchor=\"middle\">{label}<",
             at(value)
         );
         assert!(text.contains(&tick), "{tick} is missing");
