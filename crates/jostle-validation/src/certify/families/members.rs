@@ -1,4 +1,4 @@
-//! Low frames with parts that yield, buckle, crush or lift off: braces, infill panels, walls, columns of fibres, feet of columns; alone,
+//! Low frames with parts that yield, buckle, crush or lift off: braces, infill panels, walls, feet of columns; alone,
 //! before a wall or beside a shear building.
 
 use serde_json::{Map, Value, json};
@@ -55,7 +55,7 @@ fn frame(random: &mut Random, height: f64) -> (Value, f64) {
         "damping",
         json!({"alpha": digits(random.between(0.1, 1.5)), "beta": 0}),
     );
-    let parts: [Part; 5] = [braces, panels, walls, fibres, feet];
+    let parts: [Part; 4] = [braces, panels, walls, feet];
     parts[random.below(parts.len())](random, &mut tree);
     (Value::Object(tree), digits(0.12 * storeys as f64 + 0.1))
 }
@@ -103,23 +103,6 @@ fn walls(random: &mut Random, tree: &mut Map<String, Value>) {
         "stiffness_factor": digits(random.between(0.3, 1.0)), "hinge": hinge,
     });
     tree.insert("wall".into(), json!([wall]));
-}
-
-/// Columns whose feet, or all of whose ends, are fibres.
-fn fibres(random: &mut Random, tree: &mut Map<String, Value>) {
-    let side = digits(random.between(0.35, 0.55));
-    let bars = ["8 d20", "8 d25", "12 d20"][random.below(3)];
-    tree.insert(
-        "column".into(),
-        json!({"width": side, "depth": side, "concrete": "C30", "steel": "HRB400", "bars": bars}),
-    );
-    tree.insert("axial".into(), json!("flexible"));
-    tree.insert("gravity".into(), json!(true));
-    let ends = if random.chance(0.8) { "base" } else { "both" };
-    tree.insert(
-        "hinges".into(),
-        json!({"rule": "fibre", "length": digits(random.between(0.2, 0.5)), "fibres": 6, "ends": ends}),
-    );
 }
 
 /// Feet of columns that lift off.
