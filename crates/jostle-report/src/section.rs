@@ -15,6 +15,8 @@ use crate::scale::Scale;
 const AREA: [f64; 4] = [64.0, 14.0, 420.0, 260.0];
 /// Side of the square that a section is drawn into.
 const DRAWING: f64 = 220.0;
+/// Room beside it for its depth.
+const BESIDE: f64 = 90.0;
 
 /// The whole page.
 #[must_use]
@@ -149,7 +151,7 @@ fn row(survey: &SectionSurvey, name: &str, ends: &EndCurve, side: Side) -> Marku
 
 /// The section with its bars, to scale.
 fn drawing(section: &Section) -> Markup {
-    let scale = (DRAWING - 60.0) / section.width.max(section.depth);
+    let scale = (DRAWING - BESIDE) / section.width.max(section.depth);
     let (width, depth) = (section.width * scale, section.depth * scale);
     let (left, top) = (0.5 * (DRAWING - 20.0 - width), 14.0);
     let inset = section.cover * scale;
@@ -165,7 +167,7 @@ fn drawing(section: &Section) -> Markup {
             }
             g class="grid" {
                 text x=(left + 0.5 * width) y=(top + depth + 20.0) text-anchor="middle" { (in_unit(LENGTH, section.width, 0)) " " (LENGTH.name()) }
-                text x=(left + width + 8.0) y=(top + 0.5 * depth + 4.0) { (in_unit(LENGTH, section.depth, 0)) }
+                text x=(left + width + 8.0) y=(top + 0.5 * depth + 4.0) { (in_unit(LENGTH, section.depth, 0)) " " (LENGTH.name()) }
             }
         }
     }

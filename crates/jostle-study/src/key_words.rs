@@ -1,29 +1,34 @@
 //! Keys of a model file in words, as headings, axes and tiles have them.
 
-/// What a key says, of those whose own words mean less: path without its owner, words, and whether these need no owner.
-const WORDS: [(&str, &str, bool); 18] = [
-    ("pga", "peak ground acceleration", true),
-    ("reverse", "signs changed", true),
-    ("motion.pga", "peak ground acceleration", true),
-    ("motion.scale", "factor on the record", true),
-    ("motion.reverse", "signs changed", true),
-    ("motion.angle", "angle of incidence", true),
+use jostle_report::message;
+
+/// Path without its owner, words, and whether these need no owner.
+type Words = (&'static str, fn() -> &'static str, bool);
+
+/// What a key says, of those whose own words mean less.
+const WORDS: [Words; 18] = [
+    ("pga", message::peak_ground_acceleration_axis, true),
+    ("reverse", message::key_signs_changed, true),
+    ("motion.pga", message::peak_ground_acceleration_axis, true),
+    ("motion.scale", message::key_factor_on_the_record, true),
+    ("motion.reverse", message::key_signs_changed, true),
+    ("motion.angle", message::key_angle_of_incidence, true),
     (
         "motion.match.value",
-        "intensity of the target spectrum",
+        message::key_intensity_of_the_target_spectrum,
         true,
     ),
-    ("motion.record", "record", true),
-    ("gap.width", "gap width", true),
-    ("gap.stiffness", "contact stiffness", true),
-    ("gap.restitution", "restitution", true),
-    ("gap.law", "contact law", true),
-    ("gap.friction", "friction", true),
-    ("link.stiffness", "link stiffness", true),
-    ("link.damping", "link damping", true),
-    ("impact_count", "number of impacts", true),
-    ("damping.ratio", "damping ratio", false),
-    ("damping", "damping ratio", false),
+    ("motion.record", message::key_record, true),
+    ("gap.width", message::key_gap_width, true),
+    ("gap.stiffness", message::key_contact_stiffness, true),
+    ("gap.restitution", message::key_restitution, true),
+    ("gap.law", message::key_contact_law, true),
+    ("gap.friction", message::key_friction, true),
+    ("link.stiffness", message::key_link_stiffness, true),
+    ("link.damping", message::key_link_damping, true),
+    ("impact_count", message::key_number_of_impacts, true),
+    ("damping.ratio", message::key_damping_ratio, false),
+    ("damping", message::key_damping_ratio, false),
 ];
 /// Lists of a model file, one entry of which is meant.
 const OWNERS: [&str; 5] = ["building", "gap", "link", "wall", "record"];
@@ -42,7 +47,7 @@ pub(crate) fn key_in_words(path: &str) -> String {
             .then_some((*owner, number))
     }) else {
         let known = WORDS.iter().find(|(key, ..)| *key == path);
-        return known.map_or_else(|| spaced(path), |(_, words, _)| (*words).to_owned());
+        return known.map_or_else(|| spaced(path), |(_, words, _)| words().to_owned());
     };
     // A name in the place of a number.
     let name = if number.is_empty() && rest.len() > 1 && *owner == *"building" {
@@ -58,17 +63,17 @@ pub(crate) fn key_in_words(path: &str) -> String {
     let known = WORDS
         .iter()
         .find(|(known, ..)| *known == of_owner || *known == key);
-    let what = known.map_or_else(|| spaced(&key), |(_, words, _)| (*words).to_owned());
+    let what = known.map_or_else(|| spaced(&key), |(_, words, _)| words().to_owned());
     let alone = known.is_some_and(|(.., alone)| *alone);
     match (name, number) {
-        (Some(name), _) => format!("{what} of {}", spaced(&name)),
+        (Some(name), _) => message::key_of_owner(what, spaced(&name)),
         (None, "*") if alone => what,
-        (None, "*") => format!("{what} of all {owner}s"),
+        (None, "*") => message::key_of_all(what, owner),
         (None, "" | "0") if alone => what,
         (None, "") => format!("{owner} {what}"),
         (None, number) => {
             let number = number.parse::<usize>().map_or(1, |number| number + 1);
-            format!("{what} of {owner} {number}")
+            message::key_of_owner(what, format!("{owner} {number}"))
         }
     }
 }
@@ -76,8 +81,8 @@ pub(crate) fn key_in_words(path: &str) -> String {
 /// The label of a value in words: yes and no for switches.
 pub(crate) fn label_in_words(label: &str) -> &str {
     match label {
-        "true" => "yes",
-        "false" => "no",
+        "true" => message::yes(),
+        "false" => message::no(),
         other => other,
     }
 }

@@ -2,6 +2,8 @@
 
 use jostle_io::{DesignKind, Distribution, FactorValues, Level, Shape, TreeValue};
 
+use jostle_report::message;
+
 use crate::sampling::quantile;
 use crate::study::Study;
 
@@ -27,13 +29,14 @@ impl Varied {
     /// Its values and the value of the model, of a factor that is named already.
     #[must_use]
     pub fn values_in_words(&self) -> String {
-        let own = if self.own.is_empty() {
-            "not stated in the model".to_owned()
-        } else {
-            format!("in the model {}", self.own)
+        let range = match &self.range[..] {
+            "false, true" => format!("{}, {}", message::no(), message::yes()),
+            other => other.to_owned(),
         };
-        let range = self.range.replace("false, true", "no, yes");
-        format!("{range}; {own}")
+        match &self.own[..] {
+            "" => message::values_not_stated(range),
+            own => message::values_in_model(range, own),
+        }
     }
 
     /// Keys, values, and the value of the model, in one line.

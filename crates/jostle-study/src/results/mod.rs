@@ -262,7 +262,7 @@ impl Results<'_> {
             let forces = if touched == 0 {
                 String::new()
             } else {
-                message::greatest_force_of_cases(FORCE.number(most, 0))
+                message::greatest_force_of_cases(jostle_report::with_unit(FORCE.of(most), ""))
             };
             headline.push(message::buildings_pound_in_cases(touched, known, forces));
         }

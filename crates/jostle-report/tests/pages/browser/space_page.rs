@@ -1,7 +1,11 @@
 //! The scene in space and the paths of corners.
 
+use std::path::Path;
+
+use jostle_io::{Format, read_model_text};
+
 use super::{IN_SPACE, Shown};
-use crate::fixture::isolated_in_space;
+use crate::fixture::{computed, isolated_in_space};
 
 /// The picture of the scene.
 const PICTURE: &str = "document.querySelector('#space canvas').toDataURL()";
@@ -10,6 +14,54 @@ const DRAWN: &str = "(() => { const s = document.querySelector('#space canvas');
 
 /// Number of pixels in the colour of contacts.
 const MARKED: &str = "(() => { const s = document.querySelector('#space canvas'); const g = s.getContext('2d'); const d = g.getImageData(0, 0, s.width, s.height).data; let n = 0; for (let i = 0; i < d.length; i += 4) if (d[i + 3] > 200 && d[i] > 140 && d[i + 1] < 90 && d[i + 2] < 90) n++; return n; })()";
+
+/// A space frame with braces between its last lines, three across the row.
+const BRACED: &str = r#"
+[motion]
+record = "el-centro-1940-ns"
+
+[[building]]
+name = "Braced"
+kind = "space-frame"
+storeys = 2
+storey_height = "3.4 m"
+lines_x = ["0 m", "5 m", "10 m"]
+lines_y = ["0 m", "4.5 m", "9 m"]
+mass = "80 t"
+concrete = "C30"
+column = { size = ["500 mm", "500 mm"] }
+beam_x = { width = "250 mm", depth = "550 mm" }
+beam_y = { width = "250 mm", depth = "550 mm" }
+
+[[building.brace]]
+along = "x"
+y = [1, 3]
+x = 2
+direction = "both"
+EA = "600 MN"
+"#;
+
+#[test]
+fn braces_of_a_space_frame_stand_between_its_columns() {
+    let input = read_model_text("braced", BRACED, Format::Toml, Path::new("."));
+    let input = input.unwrap_or_else(|problem| panic!("{problem}"));
+    let Some(page) = Shown::new(computed(input.model.clone())).open(1280, 900) else {
+        return;
+    };
+    // Three lines, two storeys, two directions.
+    let path = page.text("document.querySelector('#scene .braces').getAttribute('d')");
+    assert_eq!(path.matches('M').count(), 12, "{path}");
+    // Between the second and the third column: in the right half of the building.
+    let left = "(() => { const of = (name) => document.querySelector(`#scene .${name}`).getBBox(); \
+        const [braces, all] = [of('braces'), of('columns')]; \
+        return (braces.x - all.x) / all.width; })()";
+    assert!(
+        (page.number(left) - 0.5).abs() < 0.03,
+        "{}",
+        page.number(left)
+    );
+    page.assert_content();
+}
 
 #[test]
 fn the_scene_turns_zooms_and_follows_the_time() {
