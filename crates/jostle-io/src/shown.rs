@@ -351,7 +351,7 @@ mod tests {
             for (name, size) in [unit.si, unit.us] {
                 let read = Unit::parse(name).unwrap_or_else(|error| panic!("{name}: {error:?}"));
                 // A mass is shown as its weight.
-                let weight = name != unit.si.0 && matches!(unit.si.0, "t" | "kg/m");
+                let weight = name != unit.si.0 && matches!(unit.si.0, "t" | "kg/m" | "kg/m²");
                 let expected = if weight {
                     read.factor / STANDARD_GRAVITY
                 } else {

@@ -234,6 +234,159 @@ mod tests {
         let spacing = Spacing::new(&values, 400.0);
         let ticks = spacing.ticks(&values, 30.0);
         let texts: Vec<&str> = ticks.iter().map(|(_, text)| &**text).collect();
+        assert_eq!(
+            texts,
+            [
+                "0.10", "0.15", "0.20", "0.25", "0.30", "0.35", "0.40", "0.45", "0.50"
+            ]
+        );
+        // In the middle of its cell, as the value would be.
+        assert!((ticks[0].0 - spacing.places[0]).abs() < 1e-9);
+        assert!((ticks[8].0 - spacing.places[59]).abs() < 1e-9);
+        let few = 0.35 / values.len().max(1) as f64;
+        let by_ratio = values.iter().all(|value| *value > 0.0) && narrowest(&linear) < few;
+        let by: fn(f64) -> f64 = if by_ratio { f64::ln } else { |value| value };
+        let edges = spaced(by);
+        let (from, whole) = (edges[0], edges[edges.len() - 1] - edges[0]);
+        let place = |at: f64| (at - from) / whole * length;
+        Self {
+            places: values.iter().map(|value| place(by(*value))).collect(),
+            linear: (!by_ratio).then(|| [place(0.0), length / whole]),
+            edges: edges.into_iter().map(place).collect(),
+        }
+    }
+
+    /// Numbers along the axis with their places: the values, or round numbers where not all values have room.
+    fn ticks(&self, values: &[f64], apart: f64) -> Vec<(f64, String)> {
+        let labelled = self.labelled(apart);
+        let end = self.edges.last().copied().unwrap_or(0.0);
+        match self.linear {
+            Some([zero, unit]) if labelled.len() < values.len() && end > 0.0 => {
+                let ends = [0.0, end].map(|place| (place - zero) / unit);
+                let scale = Scale::new(ends, [0.0, end], 1.0, end / (1.5 * apart));
+                let placed = scale.placed();
+                placed.map(|(_, place, text)| (place, text)).collect()
+            }
+            _ => {
+                let value = |at: usize| (self.places[at], number(values[at]));
+                labelled.into_iter().map(value).collect()
+            }
+        }
+    }
+
+    /// Indices of the values whose labels do not touch each other.
+    fn labelled(&self, apart: f64) -> Vec<usize> {
+        let mut last = f64::NEG_INFINITY;
+        let mut labelled = Vec::new();
+        for (index, place) in self.places.iter().enumerate() {
+            if place - last >= apart {
+                last = *place;
+                labelled.push(index);
+            }
+        }
+        labelled
+    }
+}
+
+pub(super) fn figure(map: &HeatMap) -> Markup {
+    let (nx, ny) = (map.columns.len().max(1), map.rows.len().max(1));
+    let length = (WIDTH - LEFT - RIGHT).min(WIDEST * nx as f64);
+    let tall = ny as f64 * (220.0 / ny as f64).clamp(8.0, 34.0);
+    let height = TOP + tall + BOTTOM;
+    let (across, up) = (
+        Spacing::new(&map.columns, length),
+        Spacing::new(&map.rows, tall),
+    );
+    let present = || map.cells.iter().filter_map(|cell| cell.value);
+    let (low, high) = (
+        present().fold(f64::INFINITY, f64::min).min(0.0),
+        present().fold(0.0, f64::max),
+    );
+    let share = |value: f64| {
+        if high > low {
+            (value - low) / (high - low)
+        } else {
+            0.0
+        }
+    };
+    let label = message::one_over_two(&map.value.name, &map.x.name, &map.y.name);
+    let bar = LEFT + length + 14.0;
+    html! {
+        figure.study-map {
+            figcaption { span.chart-title { (format::capital(&map.value.name)) } @if !map.value.unit.is_empty() { span.unit { " [" (map.value.unit) "]" } } }
+            svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(label) {
+                @for (index, one) in map.cells.iter().enumerate() {
+                    @let (column, row) = (index % nx, index / nx);
+                    @let (left, right) = (across.edges[column], across.edges[column + 1]);
+                    @let (low_edge, high_edge) = (up.edges[row], up.edges[row + 1]);
+                    @let (x, y) = (LEFT + left, TOP + tall - high_edge);
+                    @let size = [right - left, high_edge - low_edge];
+                    @let place = format!("{} {} {}, {} {} {}", map.x.name, number(map.columns[column]), map.x.unit, map.y.name, number(map.rows[row]), map.y.unit);
+                    @let said = one.value.map_or_else(|| map.nothing.clone(), |value| format!("{} {}", number(value), map.value.unit));
+                    @let shade = one.value.map_or(0.0, share);
+                    @if let Some(link) = &one.link {
+                        a href=(link) { (rect(x, y, size, one, shade, true, &format!("{place}: {said} ({})", one.cases))) }
+                    } @else {
+                        (rect(x, y, size, one, shade, false, &format!("{place}: {said} ({})", one.cases)))
+                    }
+                    @if size[0] >= ROOM && size[1] >= 13.0 {
+                        @if let Some(value) = one.value {
+                            text.study-number.on-dark[shade > 0.5] x=(x + 0.5 * size[0]) y=(y + 0.5 * size[1] + 4.0) text-anchor="middle" { (number(value)) }
+                        }
+                    }
+                }
+                @for (place, text) in across.ticks(&map.columns, 34.0) {
+                    text x=(LEFT + place) y=(height - BOTTOM + 15.0) text-anchor="middle" { (text) }
+                }
+                @for (place, text) in up.ticks(&map.rows, 14.0) {
+                    text x=(LEFT - 6.0) y=(TOP + tall - place + 4.0) text-anchor="end" { (text) }
+                }
+                text x=(LEFT + 0.5 * length) y=(height - 10.0) text-anchor="middle" { (map.x.label()) }
+                text x="0" y="12" { (map.y.label()) }
+                @if high > low {
+                    g.colour-bar {
+                        @for step in 0..SHADES {
+                            @let part = tall / SHADES as f64;
+                            rect.study-cell x=(bar) y=(format!("{:.2}", TOP + tall - part * (step + 1) as f64)) width="12" height=(format!("{:.2}", part + 0.3)) style=(format!("--s:{:.1}%", 100.0 * (step as f64 + 0.5) / SHADES as f64)) {}
+                        }
+                        @for value in [low, 0.5 * (low + high), high] {
+                            text x=(bar + 16.0) y=(format!("{:.1}", TOP + tall * (1.0 - share(value)) + 4.0)) { (number(value)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn rect(
+    x: f64,
+    y: f64,
+    [width, height]: [f64; 2],
+    cell: &Cell,
+    shade: f64,
+    linked: bool,
+    title: &str,
+) -> Markup {
+    let style = format!("--s:{:.1}%", 100.0 * shade);
+    html! {
+        rect.study-cell.empty[cell.value.is_none()].linked[linked] x=(x + 0.5) y=(y + 0.5) width=(format!("{:.2}", width - 1.0)) height=(format!("{:.2}", height - 1.0)) style=(style) {
+            title { (title) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0.1 to 0.5 g in 60 steps: not every value has room, and every fifth would be 0.134, 0.168 …
+    #[test]
+    fn many_values_get_round_numbers() {
+        let values: Vec<f64> = (0..60).map(|i| 0.1 + 0.4 * f64::from(i) / 59.0).collect();
+        let spacing = Spacing::new(&values, 400.0);
+        let ticks = spacing.ticks(&values, 30.0);
+        let texts: Vec<&str> = ticks.iter().map(|(_, text)| &**text).collect();
         assert_eq!(texts, ["0.1", "0.2", "0.3", "0.4", "0.5"]);
         // In the middle of its cell, as the value would be.
         assert!((ticks[0].0 - spacing.places[0]).abs() < 1e-9);
