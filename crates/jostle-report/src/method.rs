@@ -242,8 +242,8 @@ mod tests {
 
     #[test]
     fn lost_and_overflown_errors_are_named() {
-        assert_eq!(error_text(2e-13), "2e-13");
-        assert_eq!(error_text(30.0), "3e1 (lost)");
+        assert_eq!(error_text(2e-13), "2\u{202f}×\u{202f}10⁻¹³");
+        assert_eq!(error_text(30.0), "30 (lost)");
         assert_eq!(error_text(f64::INFINITY), "overflow");
     }
 
