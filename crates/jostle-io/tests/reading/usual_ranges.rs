@@ -344,7 +344,7 @@ fn cracking_that_counts_twice_is_found() {
         });
         let found = found
             .iter()
-            .filter(|finding| finding.text.contains("counts twice"));
+            .filter(|finding| finding.text.contains("counted twice"));
         found.count()
     };
     assert_eq!(twice("0.7", HINGES), 1);

@@ -967,7 +967,14 @@ fn templates_take_the_stiffness_of_the_advice() {
             let heaviest =
                 contacts.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
             let masses = heaviest.expect("they touch").struck_masses();
-            let range = advised_range(gap.law.kind, [SlabMaterial::default(); 2], masses);
+            // With the concrete of both buildings.
+            let buildings = opened.input.model.buildings_beside(gap.between);
+            let moduli = buildings.map(|side| opened.input.stated.buildings.get(side?)?.modulus);
+            let materials = [0, 1].map(|side| SlabMaterial {
+                modulus: moduli[side].or(moduli[1 - side]).unwrap_or(30e9),
+                ..SlabMaterial::default()
+            });
+            let range = advised_range(gap.law.kind, materials, masses);
             let ratio = gap.law.stiffness / range.expect("a range").value;
             assert!((0.95..1.05).contains(&ratio), "{name}: {ratio}");
         }
