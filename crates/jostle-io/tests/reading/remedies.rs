@@ -132,9 +132,7 @@ fn gaps_between_the_same_floors_are_warned_of() {
     );
     let apart =
         second("floors = [[3, 3]]").replace("law = \"hertz-damp\"", "floors = [[1, 1], [2, 2]]");
-    for text in [second("floors = [[\"5 m\", 2]]"), apart] {
-        assert!(!warnings(&text).contains("joins floors"), "{text}");
-    }
+    assert!(!warnings(&apart).contains("joins floors"), "other floors");
 }
 
 #[test]
