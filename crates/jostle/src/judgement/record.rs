@@ -20,7 +20,7 @@ pub(super) fn records(known: &Known<'_>, tally: &mut Tally<'_>) {
     };
     tally.add(count as f64, || {
         let what = match count {
-            1 => "one record, in one direction".to_owned(),
+            1 => "one record with one sign".to_owned(),
             _ => format!("{count} records, in one direction"),
         };
         let text =
