@@ -21,7 +21,7 @@ pub(super) fn records(known: &Known<'_>, tally: &mut Tally<'_>) {
     tally.add(count as f64, || {
         let what = match count {
             1 => "one record with one sign".to_owned(),
-            _ => format!("{count} records, in one direction"),
+            _ => format!("{count} records with one sign"),
         };
         let text =
             format!("{what}: not enough for a design value; codes require 3, 7 or 11 records");
