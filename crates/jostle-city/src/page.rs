@@ -305,11 +305,11 @@ impl City {
         };
         let differs = self.told();
         let sampled = answers.sampled.within(self.file.tolerance).map_or_else(
-            || "No row was run again in full.".to_owned(),
+            || "No row was repeated with the standard solvers.".to_owned(),
             |(within, worst)| {
                 format!(
-                    "{} rows were run again by the program's own stepping at 1e-4: {} of their peaks lie within {} of it, the \
-                     worst {} away.",
+                    "{} rows were repeated with the standard solvers at a tolerance of 1e-4: {} of their peaks agree within {}; the \
+                     greatest difference is {}.",
                     answers.sampled.rows,
                     percent(within),
                     self.file.tolerance,

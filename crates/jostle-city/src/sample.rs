@@ -1,4 +1,4 @@
-//! Some rows run again by the program's own stepping, to see how good the batches are.
+//! Some rows repeated with the standard solvers, to see how good the batches are.
 
 use jostle_batch::{Motion, Options, Row};
 use jostle_classes::both_ways;

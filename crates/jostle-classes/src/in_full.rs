@@ -1,4 +1,4 @@
-//! A row by a batch and by the program's own stepping: how far a batch is from what `jostle run` says.
+//! A row by a batch and by the standard solvers: how far a batch is from what `jostle run` says.
 
 use std::ops::ControlFlow;
 use std::path::Path;

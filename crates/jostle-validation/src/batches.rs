@@ -1,4 +1,4 @@
-//! Batches of random rows of buildings against the program's own stepping, their speed, and what a city costs: `docs/batches.md`.
+//! Batches of random rows of buildings against the standard solvers, their speed, and what a city costs: `docs/batches.md`.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -21,7 +21,7 @@ const PGA: (f64, f64) = (3.5, 0.4);
 const GAP: (f64, f64) = (0.008, 0.8);
 /// Rows that are timed together.
 const TIMED: usize = 1024;
-/// Buildings of the made-up city that is timed, and draws of it.
+/// Buildings of the synthetic city that is timed, and draws of it.
 const CITY: (usize, usize) = (3000, 5);
 /// Pairs a building in San Francisco: outlines no farther apart than 0.5 m, 28,610 among 76,710 buildings.
 const PAIRS_A_BUILDING: f64 = 0.373;
@@ -271,7 +271,7 @@ pub fn speed() -> Result<Vec<(&'static str, f64, f64)>, String> {
     Ok(all)
 }
 
-/// Pairs times draws of a made-up city, free and with contact, sample and tables included, in a second of one thread \[1/s\], and
+/// Pairs times draws of a synthetic city, free and with contact, sample and tables included, in a second of one thread \[1/s\], and
 /// bytes of the tables for each.
 ///
 /// # Errors
@@ -313,15 +313,15 @@ pub fn page(
 ) -> String {
     let mut text = format!(
         "# Accuracy and speed of batches\n\n\
-         `jostle city` and `jostle classes` step many rows of yielding shear buildings at once, with numbers of 32 bits.\n\
-         This page holds them against the program's own stepping at 1e-4, and says how fast they are. It is written by\n\
-         `cargo run --release -p jostle-validation -- --batches {pairs} {rows} --seed {seed} --page`. Every run of a city and of classes repeats a\n\
-         sample of its own rows in full and says how far it is.\n\n\
+         `jostle city` and `jostle classes` compute many rows of yielding shear buildings at once, in single precision.\n\
+         This page compares them with the standard solvers at a tolerance of 1e-4, and reports their speed. It is written by\n\
+         `cargo run --release -p jostle-validation -- --batches {pairs} {rows} --seed {seed} --page`. Every run of a city or of classes repeats a\n\
+         sample of its rows with the standard solvers and reports the differences.\n\n\
          ## Accuracy\n\n\
          Random buildings of 1 to {MOST_STOREYS} storeys of all HAZUS types and design levels, scattered in stiffness and strength; gaps with a median of \
-         {:.0} mm;\nEl Centro with a median peak of {:.2} g. An error is the difference of a peak over the greatest of its kind in the \
-         building or gap.\n\n\
-         | rows | touch | tolerance | numbers | peaks | drifts within | accelerations | forces | all within | worst |\n\
+         {:.0} mm;\nEl Centro with a median peak of {:.2} g. An error is the difference of a peak, divided by the greatest peak of its kind \
+         in the building or gap.\n\n\
+         | rows | with contact | tolerance | precision | peaks | drifts within | accelerations | forces | all within | worst |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",
         1e3 * GAP.0,
         PGA.0 / jostle::statics::STANDARD_GRAVITY
@@ -339,8 +339,8 @@ pub fn page(
             comparison.touching,
             comparison.tolerance,
             match comparison.precision {
-                Precision::Single => "32 bits",
-                Precision::Double => "64 bits",
+                Precision::Single => "single",
+                Precision::Double => "double",
             },
             comparison.deviations.iter().map(Vec::len).sum::<usize>(),
             kinds.join(" | "),
@@ -349,8 +349,8 @@ pub fn page(
         );
     }
     text += "\n## Speed\n\n\
-             Four beside six storeys (C1M, moderate code), El Centro whole (31 s), in a second of one thread. Times of this machine, on which \
-             other\nprograms may have run.\n\n\
+             Four beside six storeys (C1M, moderate code), El Centro whole (31 s), in a second of one thread. Other programs may have run on \
+             the\nsame machine.\n\n\
              | rule | tolerance | pairs a second |\n|---|---|---|\n";
     for (name, tolerance, rate) in speed {
         let _ = writeln!(text, "| {name} | {tolerance:e} | {rate:.0} |");
@@ -358,11 +358,10 @@ pub fn page(
     let _ = write!(
         text,
         "\n## What a city costs\n\n\
-         The made-up city of {} buildings with {} draws takes a second of one thread for {rate:.0} draws of a pair, with all that `jostle city \
-         run`\ndoes: free, with contact where the gap closes, the sample in full, the tables ({bytes:.0} bytes each). What follows is \
+         One thread computes {rate:.0} draws of a pair in a second, in a synthetic city of {} buildings with {} draws. This includes all work of `jostle city run`:\n\
+         runs without contact, runs with contact where the gap closes, the sample with the standard solvers, and the tables ({bytes:.0} bytes each). What follows is \
          computed from these\ntwo numbers, for {PAIRS_A_BUILDING} pairs a building (outlines of San Francisco within 0.5 m), {MOTIONS:.0} motions \
-         and one draw for each; nothing of that size\nwas run. `--shard` and the workers of Dask make the parts; they need nothing from each \
-         other.\n\n\
+         and one draw for each; no run of that size\nwas made. `--shard` or Dask workers compute the parts, which are independent of each other.\n\n\
          | buildings | draws of a pair | hours of a core | tables |\n|---|---|---|---|\n",
         CITY.0, CITY.1
     );

@@ -244,12 +244,12 @@ pub fn page(study: &Study) -> String {
         hit.last().map_or(0.0, |s| s.frequency),
     );
     let mut text = format!(
-        "# Harmonic pounding, beside a shake table\n\n\
+        "# Harmonic pounding, compared with a shake table\n\n\
          <!-- Written by `cargo run --release -p jostle-validation -- --harmonic`; do not edit. -->\n\n\
          K. T. Chau, X. X. Wei, X. Guo and C. Y. Shen (2003, *Experimental and theoretical simulations of seismic poundings between two \
          adjacent structures*, Earthquake Engineering and Structural Dynamics 32) shook two steel towers on a table, with sines and with \
-         El Centro. This page compares what they report in words with computed towers. It is no comparison of numbers: masses, \
-         frequencies, damping and contact here are chosen freely, not those of the towers on the table. To compare a model with the recorded data of \
+         El Centro. This page compares their observations with computed towers, in kind but not in number: the masses, \
+         frequencies, damping and contact law here are not those of the towers on the table. To compare a model with the recorded data of \
          a test, see [Compare with a shake-table test](how-to/shake-table.md).\n\n\
          Two towers of one storey, {SOFT} Hz and {STIFF} Hz, both 100 t, {:.0} % damping, a gap of {:.0} mm, `hertz-damp` with a restitution of \
          0.6. The ground moves by a sine of {AMPLITUDE} m/s². After {} cycles the motion has settled; the next {} cycles count. {} frequencies from \

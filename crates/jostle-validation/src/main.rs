@@ -23,7 +23,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --harmonic    writes docs/harmonic-pounding.md and its figures; takes minutes
   --certify N [--family NAME] [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
                 other means; FILE gets every ratio
-  --batches PAIRS ROWS [--seed S] [--page]  holds batches of random rows against the program's own stepping, and measures their speed
+  --batches PAIRS ROWS [--seed S] [--page]  compares batches of random rows with the standard solvers, and measures their speed
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files: those of families, those of others, or both
   --certify-dump K FOLDER [--family NAME] [--seed S]  writes random model K as a model file, with its record if it has one of its own
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
