@@ -17,6 +17,7 @@ use crate::terminal;
 #[command(
     name = "jostle",
     version,
+    long_version = jostle_report::version(),
     about = "Simulates neighbouring buildings that hit each other during an earthquake",
     after_help = "Quantities carry units: --pga 220cm/s2, --pga 0.35g, --gap 100mm.\n\
                   Exit codes: 0 done, 1 the analysis failed or a set of motions does not meet its code,\n\
