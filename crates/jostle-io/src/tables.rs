@@ -594,6 +594,9 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
                 floor, bay, end, ..
             },
         ) => ("beam", Some(floor), Some(bay), end.of_beam()),
+        Some(SpringPlace::Struck { storey, line, .. }) => {
+            ("column", Some(storey), Some(line), "struck")
+        }
         Some(SpringPlace::Shear { storey, line, end }) => {
             ("column shear", Some(storey), Some(line), end.of_column())
         }

@@ -470,6 +470,8 @@ class Scene {
         const length = (heights[level] - heights[level - 1]) * this.scale;
         const share = Math.min((2.4 * size) / length, 0.3) / 1.5;
         mark(hinge, onColumn(level, lines[line - 1], end ? 1 - share : share));
+      } else if (kind === "m") {
+        mark(hinge, onColumn(level, lines[line - 1], end / 1000));
       } else if (kind === "b") {
         const [from, to] = [lines[line - 1], lines[line]].map((x) => this.px(x + f * sway[level]));
         const off = Math.min(2.4 * size, 0.3 * (to - from));

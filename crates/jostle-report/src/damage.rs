@@ -3,7 +3,6 @@
 use jostle::hysteresis::{HysteresisRule, Side};
 use jostle::model::{Building, Diagonal, DiagonalKind, Structure};
 use jostle::results::summary::{BuildingSummary, PartSummary, SpringSummary};
-use jostle::structure::{Discretization, SpringPlace};
 
 use crate::{format, message};
 
@@ -43,14 +42,14 @@ impl Damage {
 #[must_use]
 pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage> {
     let hinges = &summary.hinges;
-    let braces: Vec<usize> = model.map_or_else(Vec::new, braces_of);
-    let is_brace = |spring: &&SpringSummary| braces.contains(&spring.index);
+    let braces = model.map_or(0, yielding_braces);
+    let is_brace = |spring: &&SpringSummary| spring.is_brace();
     let mut found = Vec::new();
-    if hinges.total > braces.len() {
+    if hinges.total > braces {
         let is_hinge = |spring: &&SpringSummary| !is_brace(spring);
         let list = || hinges.list.iter().filter(is_hinge);
         let yields = || list().filter_map(|hinge| hinge.yielded_s);
-        let (cracked, yielded, first_s, ductility) = if braces.is_empty() {
+        let (cracked, yielded, first_s, ductility) = if braces == 0 {
             let first = hinges.first_yield_s;
             (hinges.cracked, hinges.yielded, first, hinges.ductility)
         } else {
@@ -61,7 +60,7 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
         };
         found.push(Damage {
             name: message::hinges_yielded_word(),
-            count: [yielded, hinges.total - braces.len()],
+            count: [yielded, hinges.total - braces],
             first_s,
             note: match cracked {
                 0 => message::count_cracked(0),
@@ -69,7 +68,7 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
             },
         });
     }
-    if !braces.is_empty() {
+    if braces > 0 {
         let buckled = summary.parts.iter().filter_map(|part| part.buckled_s);
         let yielded = hinges.list.iter().filter(is_brace);
         let yielded = yielded.filter_map(|hinge| hinge.yielded_s);
@@ -79,7 +78,7 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
         };
         found.push(Damage {
             name,
-            count: [times.len(), braces.len()],
+            count: [times.len(), braces],
             first_s: times.into_iter().min_by(f64::total_cmp),
             note: String::new(),
         });
@@ -98,19 +97,12 @@ pub fn footing_name(name: &str) -> String {
     }
 }
 
-/// Indices of braces among the springs of a building that can yield.
-fn braces_of(model: &Building) -> Vec<usize> {
-    if !model.may_yield() {
-        return Vec::new();
-    }
-    let places = Discretization::new(model)
-        .spring_places
-        .into_iter()
-        .enumerate();
-    let braces = places.filter(|(_, at)| {
-        matches!(at, SpringPlace::Diagonal { place, .. } if place.kind == DiagonalKind::Brace)
-    });
-    braces.map(|(index, _)| index).collect()
+/// Number of braces of a building that can yield.
+fn yielding_braces(model: &Building) -> usize {
+    let yields = |diagonal: &&Diagonal| {
+        diagonal.place.kind == DiagonalKind::Brace && diagonal.hysteresis.is_some()
+    };
+    diagonals(model).iter().filter(yields).count()
 }
 
 /// Whether the braces of a building buckle; otherwise they yield in either sense.

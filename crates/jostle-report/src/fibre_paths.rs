@@ -2,7 +2,7 @@
 
 use jostle::linear::sort_by;
 use jostle::results::summary::FibreSummary;
-use jostle::structure::{Discretization, FibreSection};
+use jostle::structure::FibreSection;
 use jostle_section::Section;
 use jostle_section::capacity::Interaction;
 
@@ -40,23 +40,20 @@ pub(crate) fn plots(page: &Page) -> Vec<Plot> {
 }
 
 fn ends<'a>(page: &Page<'a>) -> Vec<End<'a>> {
-    let (mut found, mut before) = (Vec::new(), 0);
-    for (index, building) in page.model.buildings.iter().enumerate() {
-        if !building.may_yield() {
-            continue;
-        }
-        let discretization = Discretization::new(building);
+    let mut found = Vec::new();
+    for (index, system) in page.system.buildings.iter().enumerate() {
+        let discretization = &system.discretization;
         let summaries = page.summary.buildings.get(index);
         let summaries = summaries.map_or(&[][..], |summary| &summary.sections);
         for (section, summary) in discretization.sections.iter().zip(summaries) {
             found.push(End {
                 summary,
                 section: section.clone(),
-                first_spring: before + discretization.springs_of_section(section).start,
+                first_spring: system.spring_offset
+                    + discretization.springs_of_section(section).start,
                 building: index,
             });
         }
-        before += discretization.spring_places.len();
     }
     found
 }

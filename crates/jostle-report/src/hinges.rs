@@ -1,9 +1,8 @@
 //! Cracking and yielding: places, selected loops, the table in order of yielding.
 
-use jostle::SpacePlace;
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::linear::sort_by;
-use jostle::model::{Building, Hinges, Model, Structure};
+use jostle::model::{Building, Structure};
 use jostle::results::summary::{BuildingSummary, SpringSummary};
 use jostle::structure::{BaseMotion, Discretization, MemberEnd, MemberPlace, SpringPlace};
 use maud::{Markup, html};
@@ -34,136 +33,24 @@ pub(crate) struct Place {
     pub(crate) hysteresis: Hysteresis,
 }
 
-/// Every spring of the model that can yield, from the left building on.
-pub(crate) fn places(model: &Model) -> Vec<Place> {
-    let (mut places, mut count) = (Vec::new(), 0);
-    for (index, building) in model.buildings.iter().enumerate() {
-        if !building.may_yield() {
-            continue;
-        }
-        for (number, at) in Discretization::new(building)
-            .spring_places
-            .into_iter()
-            .enumerate()
-        {
-            if let Some(hysteresis) = hysteresis_of(building, at) {
-                places.push(Place {
-                    building: index,
-                    spring: count,
-                    index: number,
-                    at,
-                    hysteresis,
-                });
-            }
-            // Springs of bearings and shear of columns count, but are shown elsewhere.
-            count += 1;
-        }
-    }
-    places
-}
-
-fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
-    let frame_of = |frame: Option<usize>| match (&building.structure, frame) {
-        (Structure::Frame(frame), None) => Some(frame),
-        (Structure::Tiers(tiers), Some(frame)) => Some(&tiers.frames.get(frame - 1)?.frame),
-        _ => None,
-    };
-    match at {
-        SpringPlace::Diagonal { frame, place } => {
-            // Struts that lift off are no hinges.
-            let in_space = match &building.structure {
-                Structure::Tiers(tiers) if frame.is_none() => tiers.space_frame.as_ref(),
-                _ => None,
-            };
-            let mut diagonals = match in_space {
-                Some(frame) => frame.diagonals.iter(),
-                None => frame_of(frame)?.diagonals.iter(),
-            };
-            let diagonal = diagonals.find(|diagonal| diagonal.place == place)?;
-            return diagonal.hysteresis.filter(|_| at.is_hinge());
-        }
-        SpringPlace::Sliding { frame, member } => {
-            let frame = frame_of(frame)?;
-            return match member {
-                MemberPlace::Column { line, storey } => frame.wall([storey - 1, line - 1])?.shear,
-                MemberPlace::Beam { floor, span } => {
-                    frame.coupling_beam([floor - 1, span - 1])?.shear
-                }
-                MemberPlace::InSpace(_) => None,
-            };
-        }
-        SpringPlace::Column { storey, line, end }
-        | SpringPlace::ColumnInPlan {
-            storey, line, end, ..
-        } => {
-            let frame = match at {
-                SpringPlace::ColumnInPlan { frame, .. } => Some(frame),
-                _ => None,
-            };
-            if let Some(wall) = frame_of(frame)?.wall([storey - 1, line - 1]) {
-                return wall.hinge_at(storey, end == MemberEnd::Last);
-            }
-        }
-        _ => {}
-    }
-    if let SpringPlace::Base { motion, .. } = at {
-        return match motion {
-            BaseMotion::Rocking => building.base.rotational_hinge,
-            BaseMotion::Sliding => building.base.horizontal_hinge,
-        };
-    }
-    if let Structure::Tiers(tiers) = &building.structure {
-        let mut springs = tiers.yielding.iter();
-        let location = match at {
-            SpringPlace::PlanStorey { storey, axis } => (None, storey, axis),
-            SpringPlace::Element {
-                element,
-                storey,
-                axis,
-            } => (Some(element - 1), storey, axis),
-            SpringPlace::ColumnInPlan {
-                frame,
-                storey,
-                line,
-                ..
-            } => {
-                let hinges = &tiers.frames.get(frame - 1)?.hinges;
-                return hinges.columns.get(storey - 1)?.get(line - 1).copied();
-            }
-            SpringPlace::InSpace { place, axis, .. } => {
-                let frame = tiers.space_frame.as_ref()?;
-                let mut members = frame.members.iter();
-                let member = members.find(|member| member.place == place)?;
-                let plane = match place {
-                    SpacePlace::Column { .. } => axis.index(),
-                    SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => 0,
-                };
-                return member.hinges[plane];
-            }
-            SpringPlace::BeamInPlan {
-                frame, floor, bay, ..
-            } => {
-                let hinges = &tiers.frames.get(frame - 1)?.hinges;
-                return hinges.beams.get(floor - 1)?.get(bay - 1).copied();
-            }
-            _ => return None,
-        };
-        let found =
-            springs.find(|spring| (spring.element, spring.storey + 1, spring.axis) == location);
-        return found.map(|spring| spring.hysteresis);
-    }
-    match (building.hinges.as_ref()?, at) {
-        (Hinges::Frame(hinges), SpringPlace::Column { storey, line, .. }) => {
-            hinges.columns.get(storey - 1)?.get(line - 1).copied()
-        }
-        (Hinges::Frame(hinges), SpringPlace::Beam { floor, bay, .. }) => {
-            hinges.beams.get(floor - 1)?.get(bay - 1).copied()
-        }
-        (Hinges::Storeys(springs), SpringPlace::Storey { storey }) => {
-            springs.get(storey - 1).copied()
-        }
-        _ => None,
-    }
+/// Every hinge of the buildings, from the left building on; springs of bearings, shear of columns and fibres are shown elsewhere.
+pub(crate) fn places(page: &Page) -> Vec<Place> {
+    let buildings = page.system.buildings.iter().enumerate();
+    let places = buildings.flat_map(|(building, system)| {
+        let springs = system.equations.springs.iter();
+        let springs = springs
+            .zip(&system.discretization.spring_places)
+            .enumerate();
+        let hinges = springs.filter(|(_, (_, at))| at.is_hinge());
+        hinges.map(move |(index, (spring, at))| Place {
+            building,
+            spring: system.spring_offset + index,
+            index,
+            at: *at,
+            hysteresis: spring.hysteresis,
+        })
+    });
+    places.collect()
 }
 
 /// Whether a place moves sideways, in m and N, and does not turn.
@@ -184,11 +71,39 @@ pub(crate) fn slides(at: SpringPlace) -> bool {
     )
 }
 
-/// Kind, level, line and end of a place, for the scripts.
-pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
+/// How far up its storey a column is struck, in thousandths.
+fn thousandths(page: &Page, place: &Place) -> usize {
+    let Discretization {
+        stick_model,
+        floors,
+        ..
+    } = &page.system.buildings[place.building].discretization;
+    let level = |node: usize| stick_model.nodes[node].y;
+    let mut hinges = stick_model.hinges.iter();
+    let hinges = hinges.by_ref().filter(|hinge| hinge.hysteresis.is_some());
+    let Some(height) = hinges.map(|hinge| level(hinge.ends[0])).nth(place.index) else {
+        return 0;
+    };
+    let above = floors.iter().position(|floor| level(*floor) > height);
+    let ends = above.map(|floor| {
+        [
+            floor
+                .checked_sub(1)
+                .map_or(0.0, |below| level(floors[below])),
+            level(floors[floor]),
+        ]
+    });
+    ends.map_or(0, |[low, high]| {
+        (1e3 * (height - low) / (high - low)).round() as usize
+    })
+}
+
+/// Kind, level, line and end of a place, for the scripts; the end of a struck point is how far up its storey it is, in thousandths.
+pub(crate) fn coordinates(page: &Page, place: &Place) -> (char, usize, usize, usize) {
     let last = |end| usize::from(end == MemberEnd::Last);
-    match at {
+    match place.at {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
+        SpringPlace::Struck { storey, line, .. } => ('m', storey, line, thousandths(page, place)),
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
         SpringPlace::Fibre { member, end, .. } => match member {
@@ -315,7 +230,7 @@ pub(crate) fn name(page: &Page, place: &Place) -> String {
 
 /// The section of the page, if anything can yield.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
-    let places = places(page.model);
+    let places = places(page);
     if places.is_empty() {
         return None;
     }
@@ -435,6 +350,7 @@ mod tests {
     fn spring(index: usize, ductility: f64, dissipated: f64) -> SpringSummary {
         SpringSummary {
             place: String::new(),
+            at: None,
             index,
             cracked_s: Some(1.0),
             yielded_s: None,

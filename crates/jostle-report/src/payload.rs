@@ -80,7 +80,7 @@ struct Payload<'a> {
     bearing: Option<BearingData>,
 }
 
-/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
+/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends, `m` with thousandths of the storey), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
 type HingeData = (
     usize,
     char,
@@ -279,7 +279,7 @@ pub(crate) fn frame(page: &Page) -> (String, Vec<f32>) {
 fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     let time = page.history.column(Column::TIME).unwrap_or_default();
     let closed = rows_in_contact(page);
-    let places = hinges::places(page.model);
+    let places = hinges::places(page);
     let walls = walls::walls(page);
     let payload = Payload {
         duration: duration(page, &time),
@@ -351,7 +351,7 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
     let mut data: Vec<HingeData> = places
         .iter()
         .map(|place| {
-            let (kind, level, line, end) = hinges::coordinates(place.at);
+            let (kind, level, line, end) = hinges::coordinates(page, place);
             let line = member_number(page, place).unwrap_or(line);
             (place.building, kind, level, line, end, None, None, 0.0)
         })

@@ -53,6 +53,7 @@ impl<'a> Results<'a> {
         );
         let page = Page {
             model: &self.prepared.input.model,
+            system: &self.prepared.system,
             motion: &self.prepared.motion,
             summary: self.summary,
             history,

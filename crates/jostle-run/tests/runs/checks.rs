@@ -429,6 +429,17 @@ fn results() -> Vec<(&'static str, Change, f64, f64)> {
             1.01,
         ),
         (
+            "struck-unrated",
+            |s, x| {
+                let contact = &mut s.gaps[0].contacts[0];
+                contact.floors = [None, Some(1)];
+                contact.impact_count = 1;
+                contact.peak_force_n = 1e3 * x;
+            },
+            0.0,
+            0.1,
+        ),
+        (
             "elastic-drift",
             |s, x| s.buildings[1].response.drift_peak = x,
             0.0099,

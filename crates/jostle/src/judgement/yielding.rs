@@ -3,9 +3,11 @@
 use super::{Known, Tally, quoted};
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
-    Building, Diagonal, DiagonalKind, FramePlace, Hinges, STANDARD_GRAVITY, Structure,
+    Building, Diagonal, DiagonalKind, FramePlace, Hinges, LEVEL_TOLERANCE, STANDARD_GRAVITY,
+    Structure,
 };
 use crate::results::summary::{MemberSummary, RatioSummary};
+use crate::structure::{MemberPlace, SpringPlace};
 
 /// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
 const YIELD_DRIFT: f64 = 0.01;
@@ -145,20 +147,78 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Greatest moment over its capacity at struck points of columns, where no hinge yields.
+/// Greatest moment over its capacity at struck points of columns that have no hinge there.
 pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let buildings = known
+        .results
+        .iter()
+        .flat_map(|(summary, _)| &summary.buildings);
+    let hinged: Vec<String> = buildings
+        .flat_map(|building| {
+            let hinges = building.hinges.list.iter();
+            let columns = hinges.filter_map(|hinge| match hinge.at? {
+                SpringPlace::Struck { storey, line, .. } => {
+                    Some(MemberPlace::Column { line, storey })
+                }
+                _ => None,
+            });
+            columns.map(|column| format!("{}.{column}", building.name))
+        })
+        .collect();
     for (member, ratio) in struck(known) {
         let (times, place) = (ratio.bending, &ratio.bending_at);
-        if !matches!(place.at, "below" | "above") {
+        if !matches!(place.at, "below" | "above") || hinged.contains(&member.name) {
             continue;
         }
         tally.add(times, || {
             let text = format!(
-                "the moment in {} at the point of impact is {times:.1} times its capacity ({}), but the column is elastic there: its hinges are at its ends",
+                "the moment in {} at the point of impact is {times:.1} times its capacity ({}), but the column is elastic there",
                 member.name, ratio.rule
             );
             (member.name.clone(), text)
         });
+    }
+}
+
+/// Greatest force on columns that are struck between floors without their capacity being known.
+pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (gap, model) in summary.gaps.iter().zip(&known.model.gaps) {
+        let sides = known.model.buildings_beside(model.between);
+        let contacts = gap
+            .contacts
+            .iter()
+            .filter(|contact| contact.impact_count > 0);
+        for (contact, side) in contacts.flat_map(|contact| [(contact, 0), (contact, 1)]) {
+            let Some(index) = sides[side].filter(|_| contact.floors[side].is_none()) else {
+                continue;
+            };
+            let building = &summary.buildings[index];
+            let height = contact.height_m - known.model.buildings[index].base.elevation;
+            let is_struck = |member: &&MemberSummary| {
+                let mut points = member.struck.iter();
+                points.any(|point| (point.height_m - height).abs() <= LEVEL_TOLERANCE)
+            };
+            let mut members = building.members.iter().filter(is_struck);
+            let rated = members.clone().any(|member| member.ratio.is_some());
+            if rated || building.shear_failures.is_some() {
+                continue;
+            }
+            tally.add(1e-3 * contact.peak_force_n, || {
+                let name = members.next().map_or_else(
+                    || format!("a column of {}", quoted(&building.name)),
+                    |member| member.name.clone(),
+                );
+                let text = format!(
+                    "{name} is hit between floors, at {:.3} m, with up to {:.0} kN, and is not compared with its capacity",
+                    contact.height_m,
+                    1e-3 * contact.peak_force_n
+                );
+                (name, text)
+            });
+        }
     }
 }
 
@@ -300,7 +360,7 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let ratio = change.abs() * modulus / (axial * strength);
                 tally.add(ratio, || {
                     let text = format!(
-                        "{}: its compression reaches {:.0} kN, but its hinges are computed for {:.0} kN; ν changes by {ratio:.2}, and the strength with it",
+                        "{}: its compression changes to {:.0} kN, but its hinges are computed for {:.0} kN; ν changes by {ratio:.2}, and the strength with it",
                         member.name,
                         1e-3 * (made_for - change),
                         1e-3 * made_for

@@ -8,7 +8,7 @@ use super::summary::{
 };
 use crate::history::{RatioPeak, SectionRatio};
 use crate::model::{RotationMeasure, RuleCapacity};
-use crate::structure::{MemberEnd, MemberPlace, SectionAt};
+use crate::structure::{MemberPlace, SectionAt};
 use crate::system::{MemberRating, RatedPart};
 
 /// The rating of a member, and its entries among the ratios of the run: section by section, each by every rule.
@@ -182,7 +182,7 @@ pub(super) fn axial_failure(
     })
 }
 
-/// Rotations of the ends of a member that can yield against the limits of rules.
+/// Rotations of the hinges of a member against the limits of rules.
 pub(super) fn acceptance(building: usize, member: usize, run: &Run) -> Vec<AcceptanceSummary> {
     let Some((rating, _)) = rated(building, member, run) else {
         return Vec::new();
@@ -192,17 +192,13 @@ pub(super) fn acceptance(building: usize, member: usize, run: &Run) -> Vec<Accep
     let springs = &run.outcome.state.springs[building.spring_range()];
     let limits = rating.capacity.rotations.iter();
     let against = limits.filter_map(|limits| {
-        let of = |(end, [plastic, chord]): (MemberEnd, [f64; 2])| match limits.measure {
-            RotationMeasure::Plastic => (end, plastic),
-            RotationMeasure::Chord => (end, chord),
+        let of = |(at, [plastic, chord]): (SectionAt, [f64; 2])| match limits.measure {
+            RotationMeasure::Plastic => (at, plastic),
+            RotationMeasure::Chord => (at, chord),
         };
         let rotations = rating.rotations(building, springs).map(of);
-        let (end, rotation_rad) =
+        let (at, rotation_rad) =
             rotations.reduce(|best, other| if other.1 > best.1 { other } else { best })?;
-        let at = match end {
-            MemberEnd::First => SectionAt::First,
-            MemberEnd::Last => SectionAt::Last,
-        };
         let kept = limits
             .limits
             .iter()

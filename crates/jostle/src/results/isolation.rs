@@ -63,6 +63,7 @@ pub(super) fn isolation_summary(
                 stop = peaks.get(ring).map(|peak| peak.size());
             }
             SpringPlace::Column { .. }
+            | SpringPlace::Struck { .. }
             | SpringPlace::Beam { .. }
             | SpringPlace::Shear { .. }
             | SpringPlace::Storey { .. }

@@ -289,6 +289,7 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
                     place.named(element_names, frames)
                 },
             ),
+            at: place.copied(),
             index,
             cracked_s: when(global, rule.stage(memory), Stage::Cracked),
             yielded_s: when(global, rule.stage(memory), Stage::Yielded),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::column_ends::FibreSection;
-use super::cuts::{cut_at, cut_exactly, equal_cuts};
+use super::cuts::{cut_at, cut_exactly, cuts_at, equal_cuts};
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::frame_walls::InFrame;
@@ -566,12 +566,12 @@ pub(super) fn discretize_frame(
             let clear_height = storey_height - rigid[0] - rigid[1];
             let mut cuts = equal_cuts(frame.column_segments);
             let ports = is_outer.into_iter().zip(points);
-            for point in ports.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
-                cut_at(
-                    &mut cuts,
-                    (point - height + storey_height - rigid[0]) / clear_height,
-                    0.25 / frame.column_segments as f64,
-                );
+            let pushed = ports.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p);
+            let pushed: Vec<f64> = pushed
+                .map(|point| (point - height + storey_height - rigid[0]) / clear_height)
+                .collect();
+            for &share in &pushed {
+                cut_at(&mut cuts, share, 0.25 / frame.column_segments as f64);
             }
             // Struts end exactly where they are said to.
             for above in frame.ends_of_struts([storey, line]) {
@@ -587,6 +587,17 @@ pub(super) fn discretize_frame(
                 frame.axial.columns_flexible,
             );
             let elements = [first, stick_model.members.len() - 1];
+            // A push between the floors bends the column most where it acts.
+            for (point, at) in cuts_at(&cuts, &pushed).enumerate() {
+                let Some(hysteresis) = hinge else { break };
+                let above = stick_model.yielding(interior[at], *hysteresis, MemberEnd::First);
+                stick_model.members[first + at + 1].ends[0] = above;
+                discretization.spring_places.push(SpringPlace::Struck {
+                    storey: storey + 1,
+                    line: line + 1,
+                    point: point + 1,
+                });
+            }
             on_columns.insert([storey, line], interior.clone());
             for (at, joint) in [from, to].into_iter().enumerate() {
                 if rigid[at] > 0.0 {

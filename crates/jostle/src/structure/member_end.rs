@@ -17,6 +17,24 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
         hinge.ends.iter().for_each(|end| hinged[*end] = true);
     }
     let yielding = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
+    // A hinge where a column is struck lies between two segments that follow each other, and does not end the column.
+    let run = |member: usize| {
+        let [a, b] = stick_model.members[member]
+            .ends
+            .map(|end| stick_model.nodes[end]);
+        [b.x - a.x, b.y - a.y]
+    };
+    let beyond = |node: usize, from: usize| {
+        let mut hinges = stick_model.hinges.iter();
+        let hinge = hinges.find(|hinge| hinge.ends.contains(&node))?;
+        let other = hinge.ends[usize::from(hinge.ends[0] == node)];
+        let [next] = at_node[other][..] else {
+            return None;
+        };
+        let ([x, y], [next_x, next_y]) = (run(from), run(next));
+        let continues = next.abs_diff(from) == 1 && x * next_y == y * next_x;
+        continues.then_some(other)
+    };
     // In a space frame k₁₁ + k₁₂ is that stiffness.
     let mut in_space = vec![None; stick_model.nodes.len()];
     for element in &stick_model.space_elements {
@@ -43,9 +61,13 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
                 let other = member.ends[usize::from(member.ends[0] == node)];
                 let [a, b] = [node, other].map(|n| stick_model.nodes[n]);
                 length += libm::hypot(b.x - a.x, b.y - a.y);
-                node = other;
+                node = match at_node[other].len() {
+                    1 => beyond(other, from).unwrap_or(other),
+                    _ => other,
+                };
                 let next = at_node[node].iter().find(|member| **member != from);
                 match next {
+                    Some(next) if node != other => from = *next,
                     Some(next) if at_node[node].len() == 2 && !hinged[node] => from = *next,
                     _ => break,
                 }

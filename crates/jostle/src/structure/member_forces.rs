@@ -611,26 +611,41 @@ impl<'a> Cuts<'a> {
         let end = match at {
             SectionAt::First => Some(MemberEnd::First),
             SectionAt::Last => Some(MemberEnd::Last),
+            SectionAt::Below | SectionAt::Above | SectionAt::Core => None,
+        };
+        let place = match (member.place, end) {
+            (MemberPlace::Column { line, storey }, Some(end)) => {
+                Some(SpringPlace::Column { storey, line, end })
+            }
+            (MemberPlace::Column { line, storey }, None) => Some(SpringPlace::Struck {
+                storey,
+                line,
+                point: self.hinges_up_to(member, element + side),
+            }),
+            (MemberPlace::Beam { floor, span: bay }, Some(end)) => {
+                Some(SpringPlace::Beam { floor, bay, end })
+            }
             _ => None,
         };
-        let hinge = end.and_then(|end| {
-            let hinge = match member.place {
-                MemberPlace::Column { line, storey } => SpringPlace::Column { storey, line, end },
-                MemberPlace::Beam { floor, span } => SpringPlace::Beam {
-                    floor,
-                    bay: span,
-                    end,
-                },
-                MemberPlace::InSpace(_) => return None,
-            };
-            self.building.discretization.spring_at(member.frame, hinge)
-        });
+        let hinge =
+            place.and_then(|place| self.building.discretization.spring_at(member.frame, place));
         match hinge {
             Some(spring) => LinearForm {
                 springs: Row::single(spring),
                 ..LinearForm::default()
             },
             None => self.end_force(element, side, THETA, [-1.0, 1.0][side]),
+        }
+    }
+
+    /// How many hinges between its elements a member has below an element; none if its node is not hinged.
+    fn hinges_up_to(&self, member: &FrameMember, element: usize) -> usize {
+        let is_hinged = |at: usize| self.elements[at - 1].ends[1] != self.elements[at].ends[0];
+        let below = member.elements.start + 1..=element;
+        if is_hinged(element) {
+            below.filter(|at| is_hinged(*at)).count()
+        } else {
+            0
         }
     }
 

@@ -61,6 +61,15 @@ pub enum SpringPlace {
         /// Which end.
         end: MemberEnd,
     },
+    /// Between the floors of a column, where a neighbour or a link pushes it.
+    Struck {
+        /// Storey.
+        storey: usize,
+        /// Column line.
+        line: usize,
+        /// Its number among such points of the column, from 1, from below.
+        point: usize,
+    },
     /// At an end of a beam.
     Beam {
         /// Floor.
@@ -406,6 +415,14 @@ impl std::fmt::Display for SpringPlace {
                 let end = end.of_column();
                 write!(formatter, "column {line}, storey {storey}, {end}")
             }
+            Self::Struck {
+                storey,
+                line,
+                point,
+            } => write!(
+                formatter,
+                "column {line}, storey {storey}, struck point {point}"
+            ),
             Self::Beam { floor, bay, end } => {
                 let end = end.of_beam();
                 write!(formatter, "beam {bay}, floor {floor}, {end}")

@@ -13,7 +13,7 @@ pub struct LimitedEnd {
     pub spring: usize,
     /// Name of the member within the building, such as `column.2.3`.
     pub member: String,
-    /// The end in words: `foot`, `head`, `left`, `right`, `first` or `last`.
+    /// The end in words: `foot`, `head`, `struck`, `left`, `right`, `first` or `last`.
     pub at: &'static str,
     /// Which rotation is limited.
     pub measure: RotationMeasure,
@@ -33,6 +33,10 @@ fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
         SpringPlace::Column { storey, line, end } => {
             let name = format!("column.{line}.{storey}");
             (columns, [line, storey], name, end.of_column())
+        }
+        SpringPlace::Struck { storey, line, .. } => {
+            let name = format!("column.{line}.{storey}");
+            (columns, [line, storey], name, "struck")
         }
         SpringPlace::Beam { floor, bay, end } => {
             let name = format!("beam.{floor}.{bay}");

@@ -4,7 +4,7 @@ use super::BuildingSystem;
 use crate::hysteresis::{HysteresisMemory, Side};
 use crate::model::MemberCapacity;
 use crate::structure::{
-    AssembledBuilding, MemberEnd, MemberPlace, MemberSection, SpringPlace, ductility,
+    AssembledBuilding, MemberEnd, MemberPlace, MemberSection, SectionAt, SpringPlace, ductility,
     end_stiffnesses,
 };
 
@@ -19,8 +19,8 @@ pub struct MemberRating {
     pub sections: Vec<MemberSection>,
     /// Its capacity.
     pub capacity: MemberCapacity,
-    /// Hinges at its ends.
-    hinges: Vec<EndHinge>,
+    /// Its hinges.
+    hinges: Vec<MemberHinge>,
 }
 
 /// What is rated, by its index.
@@ -32,44 +32,53 @@ pub enum RatedPart {
     Joint(usize),
 }
 
-/// A hinge at an end of a member.
+/// A hinge of a member, at an end or where it is struck.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct EndHinge {
-    end: MemberEnd,
+pub(super) struct MemberHinge {
+    at: SectionAt,
     /// Its index among the springs of the building.
     spring: usize,
     /// Stiffness of the member behind it \[N·m/rad\].
     behind: Option<f64>,
 }
 
-impl EndHinge {
-    /// The hinges at the ends of a member, in every plane in which it bends. `frame`: its own, where several stand in a plan.
+impl MemberHinge {
+    /// The hinges of a member, at its ends in every plane in which it bends, and at struck points. `frame`: its own, where several stand in a plan.
     pub(super) fn of_member(
         building: &AssembledBuilding,
         frame: Option<usize>,
         place: MemberPlace,
     ) -> Vec<Self> {
         let behind = end_stiffnesses(&building.discretization.stick_model);
-        let ends = [MemberEnd::First, MemberEnd::Last].into_iter();
-        let places = ends.flat_map(|end| {
+        let ends = [
+            (MemberEnd::First, SectionAt::First),
+            (MemberEnd::Last, SectionAt::Last),
+        ];
+        let places = ends.into_iter().flat_map(|(end, at)| {
             let places = SpringPlace::of_hinges(place, end).into_iter();
-            places.map(move |place| (place, end))
+            places.map(move |place| (place, at))
         });
-        let hinge_places = places.filter_map(|(hinge, end)| {
+        let hinge_places = places.filter_map(|(hinge, at)| {
             let hinge = match frame {
                 Some(frame) => hinge.in_frame(frame + 1)?,
                 None => hinge,
             };
-            Some((hinge, end))
+            Some((hinge, at))
         });
-        let hinge_places: Vec<(SpringPlace, MemberEnd)> = hinge_places.collect();
+        let hinge_places: Vec<(SpringPlace, SectionAt)> = hinge_places.collect();
+        let at = |spring: &SpringPlace| match *spring {
+            SpringPlace::Struck { storey, line, .. } => {
+                (place == MemberPlace::Column { line, storey }).then_some(SectionAt::Below)
+            }
+            _ => {
+                let mut known = hinge_places.iter();
+                known.find(|(end, _)| end == spring).map(|(_, at)| *at)
+            }
+        };
         let springs = building.discretization.spring_places.iter().enumerate();
         let hinges = springs.filter_map(|(spring, place)| {
-            let (_, end) = hinge_places
-                .iter()
-                .find(|(candidate, _)| candidate == place)?;
             Some(Self {
-                end: *end,
+                at: at(place)?,
                 spring,
                 behind: behind.get(spring).copied().flatten(),
             })
@@ -104,7 +113,7 @@ impl MemberRating {
             part: RatedPart::Member(member),
             sections: member_sections.sections.clone(),
             capacity: capacity.clone(),
-            hinges: EndHinge::of_member(building, member_sections.frame, member_sections.place),
+            hinges: MemberHinge::of_member(building, member_sections.frame, member_sections.place),
         }
     }
 
@@ -123,19 +132,19 @@ impl MemberRating {
         }
     }
 
-    /// Greatest ductility so far of its ends, at least 1 \[–\]. `springs`: those of the building.
+    /// Greatest ductility so far of its hinges, at least 1 \[–\]. `springs`: those of the building.
     pub(crate) fn ductility(&self, building: &BuildingSystem, springs: &[HysteresisMemory]) -> f64 {
-        let of = |hinge: &EndHinge| hinge.ductility(building, springs);
+        let of = |hinge: &MemberHinge| hinge.ductility(building, springs);
         self.hinges.iter().map(of).fold(1.0, f64::max)
     }
 
-    /// Greatest rotations so far of every end with a hinge: end, plastic rotation and chord rotation \[rad\]. `springs`: those
+    /// Greatest rotations so far of every hinge: where it is, plastic rotation and chord rotation \[rad\]. `springs`: those
     /// of the building.
     pub(crate) fn rotations<'a>(
         &'a self,
         building: &'a BuildingSystem,
         springs: &'a [HysteresisMemory],
-    ) -> impl Iterator<Item = (MemberEnd, [f64; 2])> + 'a {
+    ) -> impl Iterator<Item = (SectionAt, [f64; 2])> + 'a {
         self.hinges.iter().map(|hinge| {
             let rule = &building.equations.springs[hinge.spring].hysteresis;
             let memory = &springs[hinge.spring];
@@ -148,7 +157,7 @@ impl MemberRating {
                 greatest[0] = greatest[0].max(turned - curve.yielding.deformation);
                 greatest[1] = greatest[1].max(turned + bent);
             }
-            (hinge.end, greatest)
+            (hinge.at, greatest)
         })
     }
 

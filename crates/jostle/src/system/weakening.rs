@@ -1,6 +1,6 @@
 //! Shear strength of columns that falls with the ductility of their hinges.
 
-use super::rating::EndHinge;
+use super::rating::MemberHinge;
 use crate::hysteresis::HysteresisMemory;
 use crate::model::{Building, CapacityLine, Hinges};
 use crate::structure::{AssembledBuilding, MemberPlace, SpringPlace};
@@ -10,7 +10,7 @@ use crate::structure::{AssembledBuilding, MemberPlace, SpringPlace};
 pub(crate) struct Weakening {
     /// Its shear springs, among those of the building.
     shear: Vec<usize>,
-    hinges: Vec<EndHinge>,
+    hinges: Vec<MemberHinge>,
     /// Strength against ductility \[N, –\].
     strength: CapacityLine,
 }
@@ -40,7 +40,7 @@ impl Weakening {
                 });
                 Self {
                     shear: places.map(|(spring, _)| spring).collect(),
-                    hinges: EndHinge::of_member(
+                    hinges: MemberHinge::of_member(
                         building,
                         None,
                         MemberPlace::Column { line, storey },

@@ -1,11 +1,13 @@
 //! Forces at the ends and struck points of columns and beams, against equilibrium and closed forms.
 
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
 use jostle::linear::StepMatrix;
 use jostle::stiffness::DirectStiffness;
-use jostle::structure::{MemberPlace, SectionAt, solve_once};
+use jostle::structure::{MemberPlace, SectionAt, SpringPlace, solve_once};
 use jostle::{
-    Analysis, Axial, Building, FloorPairs, Frame, Gap, Gravity, Level, Link, MemberRequest, Model,
-    Outcome, Section, Solver, State, Structure, System,
+    Analysis, Axial, Building, ContactLaw, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity,
+    Hinges, LawKind, Level, Link, MemberRequest, Model, Outcome, Section, Shear, Solver, State,
+    Structure, System,
 };
 use jostle_testkit::models::{self, CONCRETE_REALISED, bending};
 use jostle_testkit::motions::two_waves;
@@ -387,6 +389,96 @@ fn a_struck_column_between_rigid_ends_bears_what_handbooks_say() {
     }
     // What the push leaves at the floor goes through the beam.
     assert_near(forces.at(BEAM, SectionAt::First)[0], -p / 2.0, p);
+}
+
+#[test]
+fn a_struck_column_bears_no_more_than_its_plastic_limit() {
+    // A heavy neighbour pushes slowly, half way up, on a column whose floor other columns hold: a beam with fixed ends and a load P in
+    // its middle fails by hinges at both ends and under the load, at P = 8 M/l.
+    let (l, strength) = (3.2, 150e3);
+    let hinge = |times: f64| {
+        let corners = Corners {
+            cracking: 0.8 * times * strength,
+            yielding: times * strength,
+            post_cracking: 0.5,
+            post_yield: 1e-5,
+        };
+        let backbone = Backbone::from_forces(times * 1e9, corners, corners).expect("sound");
+        Hysteresis::new(HysteresisRule::PeakOriented, backbone).expect("sound")
+    };
+    let light = Section {
+        line_mass: 2.0,
+        ..section(6e7)
+    };
+    let frame = Frame {
+        floor_mass: vec![2000.0],
+        storey_heights: vec![l],
+        columns: vec![light],
+        own_columns: [[0, 1], [0, 2]]
+            .map(|place| (place, Some(section(5e10))))
+            .into(),
+        beams: vec![section(1e13)],
+        ..models::frame(1, &[6.0, 6.0], light, section(1e13))
+    };
+    let struck = Building {
+        // Dashpots beside hinges would bear moments of their own.
+        damping: Damping::Rayleigh {
+            alpha: 2.0,
+            beta: 0.0,
+        },
+        hinges: Some(Hinges::Frame(FrameHinges {
+            columns: vec![vec![hinge(1.0), hinge(1e3), hinge(1e3)]],
+            ..FrameHinges::default()
+        })),
+        ..building("F", frame)
+    };
+    let heavy = models::equal_storeys(1, [4e5, 1e6]);
+    let pusher = Shear {
+        storey_heights: vec![0.5 * l],
+        ..heavy
+    };
+    let model = Model {
+        title: "Plastic limit".to_owned(),
+        buildings: vec![models::building("H", Structure::Shear(pusher)), struck],
+        gaps: vec![Gap {
+            floors: FloorPairs::Listed(vec![[Level::Floor(1), Level::Height(0.5 * l)]]),
+            ..Gap::after(
+                0,
+                0.02,
+                ContactLaw {
+                    kind: LawKind::Linear,
+                    stiffness: 5e6,
+                    ..CONCRETE_REALISED
+                },
+            )
+        }],
+        ..Model::default()
+    };
+    let (system, outcome, summary) = runs::run_and_summary(&model, &two_waves(300));
+    let peak = summary.gaps[0].contacts[0].peak_force_n;
+    let limit = 8.0 * strength / l;
+    assert!(
+        (peak / limit - 1.0).abs() < 0.02,
+        "{peak} instead of {limit}"
+    );
+    let places = &system.buildings[1].discretization.spring_places;
+    let point = SpringPlace::Struck {
+        storey: 1,
+        line: 1,
+        point: 1,
+    };
+    let at = places
+        .iter()
+        .position(|place| *place == point)
+        .expect("a hinge");
+    assert_eq!(
+        places.len(),
+        7,
+        "foot and head of three columns, and the struck point"
+    );
+    let turned =
+        outcome.state.springs[system.buildings[1].spring_offset + at].greatest(Side::Positive);
+    assert!(turned > 0.005, "it yields where it is struck: {turned}");
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
+use crate::model::DiagonalKind;
 use crate::quantity::{Quantity, Unit};
+use crate::structure::SpringPlace;
 
 /// Numbers of hinges, or storeys of a shear building, beyond the elastic range, and their peaks.
 #[derive(Clone, Debug, Default, Serialize, PartialEq)]
@@ -41,6 +43,9 @@ impl HingeSummary {
 pub struct SpringSummary {
     /// Position as text.
     pub place: String,
+    /// The same; `None` for what has none.
+    #[serde(skip)]
+    pub at: Option<SpringPlace>,
     /// Number among the springs of the building that can yield, from 0.
     pub index: usize,
     /// Time of cracking; 0 if self weight alone causes it \[s\].
@@ -59,6 +64,14 @@ pub struct SpringSummary {
     pub peak_force: f64,
     /// Energy dissipated \[J\].
     pub dissipated_j: f64,
+}
+
+impl SpringSummary {
+    /// Whether it is a brace.
+    #[must_use]
+    pub fn is_brace(&self) -> bool {
+        matches!(self.at, Some(SpringPlace::Diagonal { place, .. }) if place.kind == DiagonalKind::Brace)
+    }
 }
 
 #[rustfmt::skip]
