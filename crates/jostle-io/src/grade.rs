@@ -1,6 +1,7 @@
 //! Concrete and steel as users write them: a grade of GB 50010 or EN 1992-1-1, f'c of ACI 318, bars of EN 10080 or ASTM, or a
 //! strength.
 
+use jostle_section::capacity::ShearRule;
 use jostle_section::{
     ASTM_STEEL_GRADES, CONCRETE_GRADES, Concrete, EN_CONCRETE_GRADES, EN_STEEL_GRADES,
     STEEL_GRADES, Steel, StrengthLevel,
@@ -23,6 +24,16 @@ pub(crate) enum ConcreteGrade {
 }
 
 impl ConcreteGrade {
+    /// The rule for existing members of the country that names concrete like this; `None` of a strength.
+    pub(crate) fn home_rule(self) -> Option<ShearRule> {
+        match self {
+            Self::Named(name) if name.contains('/') => Some(ShearRule::En1998),
+            Self::Named(_) => Some(ShearRule::Gb50010),
+            Self::Prismatic(_) => None,
+            Self::Cylinder(_) => Some(ShearRule::Asce41),
+        }
+    }
+
     /// Numbers of a strength level; `None` of grades that are not in the tables of strengths.
     pub(crate) fn at(self, level: StrengthLevel) -> Option<Concrete> {
         match self {

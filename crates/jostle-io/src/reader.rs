@@ -480,6 +480,11 @@ impl<'s> Reader<'s> {
         }
     }
 
+    /// Whether what stands at a path has a fault.
+    pub(crate) fn is_faulty(&self, path: &str) -> bool {
+        self.faults.iter().any(|(_, fault)| fault.path == path)
+    }
+
     /// Says how a cylinder strength is written, at a fault that was noted since `before`.
     fn mention_cylinders(&mut self, before: usize, field: &Field<'_>) {
         let Some((_, fault)) = self.faults.get_mut(before) else {

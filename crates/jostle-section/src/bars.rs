@@ -52,8 +52,7 @@ pub struct Ties {
 pub struct BarsError(String);
 
 /// How bars are written.
-const EXAMPLE: &str =
-    "write \"12 d20\" for twelve bars of 20 mm around the section, or \"4 d25 top, 3 d25 bottom\"";
+const EXAMPLE: &str = "write \"12 d20\" for twelve bars of 20 mm around the section, \"8 #6\" for eight of No. 6, or \"4 d25 top, 3 d25 bottom\"";
 
 /// Most bars of a section.
 const MOST_BARS: usize = 400;

@@ -50,7 +50,7 @@ pub struct ReinforcedMember {
     pub clear_length_across: Option<f64>,
     /// Level of the strengths of the section.
     pub level: StrengthLevel,
-    /// Rule for capacities of the country of its steel, if that has a grade.
+    /// Rule for capacities of the country of its steel, if that has a grade, otherwise of its concrete.
     pub home_rule: Option<ShearRule>,
 }
 
@@ -186,16 +186,18 @@ pub(super) fn read_section(
         Some(field) => StrengthLevel::named(reader.choice(&field, STRENGTHS, &[])?)?,
         None => StrengthLevel::default(),
     };
-    let grade = reader.get(view, "concrete").map(|field| {
-        let grade = reader.concrete(&field, SECTION_CONCRETES)?;
-        grade.at(level)
-    });
-    let mut home_rule = None;
+    let grade = reader
+        .get(view, "concrete")
+        .map(|field| reader.concrete(&field, SECTION_CONCRETES));
+    // Steel that is a strength says no country, but its concrete may.
+    let named = grade.flatten().or(of_building);
+    let mut home_rule = named.and_then(ConcreteGrade::home_rule);
+    let grade = grade.map(|grade| grade?.at(level));
     let steel = reader.get(view, "steel").map(|field| {
         let grade = reader.grade(&field, STEELS, "\"400 MPa\"")?;
         match grade {
             Grade::Named(name) => {
-                home_rule = ShearRule::of_steel(name);
+                home_rule = ShearRule::of_steel(name).or(home_rule);
                 Steel::grade(name, level)
             }
             Grade::Strength(strength) => Some(Steel::of_strength(strength)),
@@ -226,7 +228,9 @@ pub(super) fn read_section(
         Some(concrete) => concrete,
         None => {
             let concrete = of_building.and_then(|grade| grade.at(level));
-            if concrete.is_none() {
+            // A grade of the building that is not understood has its own fault.
+            let building = view.path.split('.').next().unwrap_or_default();
+            if concrete.is_none() && !reader.is_faulty(&format!("{building}.concrete")) {
                 reader.missing(view, "concrete", "add concrete = \"C30\" (C20 to C60, \"C30/37\", \"f'c = 4 ksi\", or a strength such as \"30 MPa\") beside the bars");
             }
             concrete
