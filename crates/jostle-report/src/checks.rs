@@ -8,24 +8,34 @@ use crate::{Page, format, message};
 
 /// The section on the first page.
 pub(crate) fn section(page: &Page) -> Markup {
-    found(&page.summary.checks, &page.summary.silenced_checks)
+    let summary = page.summary;
+    found(&summary.checks, &summary.silenced_checks, &summary.notes)
 }
 
-/// The section of these findings.
-pub(crate) fn found(checks: &[Finding], silenced: &[String]) -> Markup {
+/// The section of these findings and notes.
+pub(crate) fn found(checks: &[Finding], silenced: &[String], notes: &[String]) -> Markup {
     html! {
         section #checks.checks {
             h2 { (message::assumptions_and_limits()) }
             @if checks.is_empty() {
                 p.quiet { (message::all_checks_are_passed()) }
-            } @else {
-                ul { @for finding in checks { (item(finding)) } }
+            }
+            @if !checks.is_empty() || !notes.is_empty() {
+                ul {
+                    @for finding in checks { (item(finding)) }
+                    @for text in notes { (note(text)) }
+                }
             }
             @if !silenced.is_empty() {
                 p.quiet { (message::silenced_checks(silenced.join(", "))) }
             }
         }
     }
+}
+
+/// What the run says beside the checks.
+fn note(text: &str) -> Markup {
+    html! { li data-grade=(Grade::Note.word()) { b { (message::note()) } " " (format::capital(&in_shown_units(text))) } }
 }
 
 fn item(finding: &Finding) -> Markup {

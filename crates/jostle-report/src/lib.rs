@@ -38,6 +38,7 @@ mod page;
 mod panels;
 mod payload;
 mod plan_motion;
+mod pounding_effect;
 mod pushover;
 mod rotation_levels;
 mod rules;
@@ -69,6 +70,7 @@ pub use damage::{Damage, damage, footing_name};
 pub use document::render_document;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
+pub use pounding_effect::{Extremes, changes};
 pub use pushover::{Demand, render_pushover};
 pub use rules::{required_width, rows_of_rules, rule_name};
 pub use section::render_sections;
@@ -85,7 +87,7 @@ pub use viewer::{Frame, Viewer, frame};
 use jostle::history::SpringHistory;
 use jostle::method::MethodSurvey;
 use jostle::results::summary::{GapSummary, LinkSummary};
-use jostle::{Gap, GroundMotion, History, Link, Model, Summary};
+use jostle::{Gap, GroundMotion, History, Link, Model, Summary, System};
 use jostle_section::formula::Member;
 
 /// Everything a report shows.
@@ -93,6 +95,8 @@ use jostle_section::formula::Member;
 pub struct Page<'a> {
     /// What was computed.
     pub model: &'a Model,
+    /// Its buildings as they were computed.
+    pub system: &'a System,
     /// Ground motion as used.
     pub motion: &'a GroundMotion,
     /// Numbers of the run.

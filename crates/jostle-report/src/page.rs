@@ -11,8 +11,8 @@ use crate::tiles::tiles;
 use crate::verdict::{outside, verdict};
 use crate::{
     Page, bounds, calculation, checks, contact_box, describe, devices, fibres, floor_spectra,
-    friction, grounds, hinges, joints, members, method, panels, payload, rotation_levels,
-    shear_failures, site_plan, spread, tables,
+    friction, grounds, hinges, joints, members, method, panels, payload, pounding_effect,
+    rotation_levels, shear_failures, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -59,7 +59,7 @@ pub(crate) fn page(page: &Page) -> Markup {
     let without = envelope::without_contact(page);
     let without = without.as_deref();
     let recorded = page.history.len() > 1;
-    let yields = !hinges::places(page.model).is_empty();
+    let yields = !hinges::places(page).is_empty();
     let script = match page.model.is_in_space() {
         true => flush(&IN_SPACE) + &flush(&SCRIPTS),
         false => flush(&SCRIPTS),
@@ -90,6 +90,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(why) = &outside { p.outside role="alert" { b { (message::outside_the_model()) } " " (why) } }
                     p.verdict.muted[outside.is_some()] { @if page.summary.ended_early.is_some() { (message::until_the_run_ended()) " " } (headline) }
                     (tiles(page))
+                    @if let Some(effect) = pounding_effect::section(page) { (effect) }
                     (checks::section(page))
                     (bounds::section(page))
                     @if let Some(spread) = spread::section(page) { (spread) }

@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use crate::damage::{Damage, damage, footing_name};
 use crate::devices::isolated;
+use crate::pounding_effect::{Worst, worst};
 use crate::verdict::{closest_approach, nearest, outside, peak_closing, place};
 use crate::{Page, format, message};
 
@@ -23,7 +24,9 @@ struct Tile {
 pub(crate) fn tiles(page: &Page) -> Markup {
     let summary = page.summary;
     let mut tiles = gaps(summary);
+    tiles.extend(effect(summary));
     tiles.extend(drift(summary));
+    tiles.extend(failed(summary));
     tiles.extend(members(summary));
     tiles.extend(levels(summary));
     tiles.extend(strains(summary));
@@ -55,9 +58,36 @@ fn accuracy(summary: &Summary) -> Markup {
     html! {
         p.quiet #accuracy {
             b { (message::accuracy()) " " } (words) "."
-            @if unknown { " " (message::contact_law_is_not_included()) }
+            @if unknown { " " b { (message::numerical_error_alone()) } }
         }
     }
+}
+
+/// What pounding hurts most.
+fn effect(summary: &Summary) -> Option<Tile> {
+    let Worst { ratio, what } = worst(summary)?;
+    let touched = summary.gaps.iter().any(|gap| gap.impact_count > 0);
+    let value = message::times_without(format::fixed(ratio, 2));
+    touched.then(|| tile(message::worst_effect(), value, what))
+}
+
+/// Columns that failed in shear, of those that can.
+fn failed(summary: &Summary) -> Option<Tile> {
+    let buildings = summary.buildings.iter();
+    let all = buildings.filter_map(|building| building.shear_failures.as_ref());
+    let total = all.clone().map(|all| all.total).sum::<usize>();
+    let some = all.clone().map(|all| all.failed).sum::<usize>();
+    let first = all.filter_map(|all| all.first_s).reduce(f64::min);
+    let note = first.map_or_else(String::new, |first| {
+        message::first_at(format::instant(first))
+    });
+    (total > 0).then(|| {
+        tile(
+            message::columns_failed(),
+            message::one_of_all(some, total),
+            note,
+        )
+    })
 }
 
 fn tile(name: impl Into<String>, value: impl Into<String>, note: impl Into<String>) -> Tile {
@@ -163,7 +193,18 @@ fn drift(summary: &Summary) -> Vec<Tile> {
         .iter()
         .any(|building| building.hinges.yielded > 0);
     let left = yields.then(|| of(message::residual_drift(), &residual));
-    let peak = of(message::greatest_drift(), &FloorSummary::greatest_drift);
+    let bounds = summary.isolation_bounds.as_ref().and_then(|bounds| {
+        let buildings = bounds.buildings.iter();
+        buildings.max_by(|a, b| a.drift.envelope.total_cmp(&b.drift.envelope))
+    });
+    let peak = match bounds {
+        Some(building) => Some(tile(
+            message::greatest_drift(),
+            format::unit(format::fixed(100.0 * building.drift.envelope, 2), "%"),
+            format!("{}; {}", building.name, message::greatest_over_bounds()),
+        )),
+        None => of(message::greatest_drift(), &FloorSummary::greatest_drift),
+    };
     peak.into_iter().chain(left.flatten()).collect()
 }
 
@@ -254,7 +295,7 @@ fn struck_column(summary: &Summary) -> Option<Tile> {
         .iter()
         .flat_map(|building| &building.members);
     let struck = members.filter(|member| hardest(member) > 0.0);
-    let worst = struck.max_by(|a, b| {
+    let worst = struck.clone().max_by(|a, b| {
         let of = |member| (ratio(member).unwrap_or(0.0), hardest(member));
         let ((a, a_force), (b, b_force)) = (of(a), of(b));
         a.total_cmp(&b).then(a_force.total_cmp(&b_force))
@@ -264,11 +305,22 @@ fn struck_column(summary: &Summary) -> Option<Tile> {
         .iter()
         .map(|point: &StruckSummary| point.impact_count);
     let impacts = message::struck_up_to(count.sum::<usize>(), format::force(hardest(worst)));
-    let value = match ratio(worst) {
-        Some(ratio) => message::times_its_capacity(format::fixed(ratio, 2)),
-        None => format::force(hardest(worst)),
-    };
     let note = format!("{}, {impacts}", worst.name);
+    // A column without a known capacity may be worse.
+    let unrated =
+        struck.filter(|member| ratio(member).is_none() && hardest(member) > hardest(worst));
+    let harder = unrated.max_by(|a, b| hardest(a).total_cmp(&hardest(b)));
+    let (value, note) = match (ratio(worst), harder) {
+        (None, _) => (
+            format::force(hardest(worst)),
+            message::capacity_unknown(note),
+        ),
+        (Some(ratio), None) => (message::times_its_capacity(format::fixed(ratio, 2)), note),
+        (Some(ratio), Some(harder)) => (
+            message::times_its_capacity(format::fixed(ratio, 2)),
+            message::harder_without_capacity(note, &harder.name, format::force(hardest(harder))),
+        ),
+    };
     Some(tile(message::worst_struck_column(), value, note))
 }
 

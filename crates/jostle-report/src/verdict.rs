@@ -11,6 +11,14 @@ use crate::message;
 /// The headline of the report: what happened, in a sentence or two.
 #[must_use]
 pub fn verdict(summary: &Summary) -> String {
+    match summary.isolation_bounds {
+        Some(_) => message::with_nominal_bearings(happened(summary)),
+        None => happened(summary),
+    }
+}
+
+/// What happened in the run of the model itself.
+fn happened(summary: &Summary) -> String {
     let pounding: Vec<&GapSummary> = summary
         .gaps
         .iter()

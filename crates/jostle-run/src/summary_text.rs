@@ -8,7 +8,6 @@ use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
-use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
@@ -18,7 +17,7 @@ use jostle_io::shown::{
     by_model,
 };
 use jostle_io::{Input, in_shown_units};
-use jostle_report::damage;
+use jostle_report::{Extremes, changes, damage};
 
 use crate::checks_text::write_findings;
 use crate::codes_text::{is_moat, write_codes};
@@ -326,27 +325,6 @@ fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
         )?;
     }
     Ok(())
-}
-
-/// Greatest and least ratio over the height, and the floor of each.
-type Extremes = [(f64, usize); 2];
-
-/// Ratios of storey drift, storey shear and acceleration; `None` without a run without contact.
-fn changes(building: &BuildingSummary) -> [Option<Extremes>; 3] {
-    let kinds: [fn(&FloorResponse) -> f64; 3] = [
-        |f| f.storey_drift_peak,
-        |f| f.storey_shear_peak_n,
-        |f| f.total_acceleration_peak_m_s2,
-    ];
-    kinds.map(|peak| {
-        let ratios = building.floors.iter().filter_map(|floor| {
-            let before = peak(&floor.without_contact?);
-            (before > 0.0).then(|| (peak(&floor.response) / before, floor.floor))
-        });
-        let greatest = ratios.clone().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let least = ratios.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some([greatest, least])
-    })
 }
 
 /// One line for every building that can crack and yield.
@@ -913,6 +891,7 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
 
 #[cfg(test)]
 mod tests {
+    use jostle::results::response::FloorResponse;
     use jostle::results::summary::{FloorSummary, HingeSummary};
 
     use super::*;

@@ -516,8 +516,8 @@ messages! {
     the_animation_and_the_time = "The animation and the time charts need JavaScript.";
     the_run_ended_early = "The run ended early:";
     peak_force_title = "Peak force";
-    with_force_range(place, least, most) = "{place}; {least} to {most} with other contact laws";
-    contact_law_is_not_included = "The contact law is not included: --sensitivity shows its effect.";
+    with_force_range(place, least, most) = "{place}; {least} to {most} with other contact stiffness and restitution";
+    numerical_error_alone = "This is the numerical error alone. Contact stiffness and the choice of records usually matter more: --sensitivity shows the first, several records the second.";
     first_at(instant) = "first at {instant}";
     none = "none";
     peak_closing_title(pair) = "Peak closing{pair}";
@@ -537,6 +537,14 @@ messages! {
     worst_struck_column = "Worst struck column";
     times_its_capacity(ratio) = "{ratio} × capacity";
     struck_up_to(times, force) = "struck {times} ×, up to {force}";
+    harder_without_capacity(note, member, force) = "{note}; {member}, up to {force}, has no known capacity";
+    capacity_unknown(note) = "{note}; capacity not known";
+    columns_failed = "Columns failed in shear";
+    worst_effect = "Largest increase by pounding";
+    times_without(ratio) = "× {ratio}";
+    drift_of_storey(building, storey, peak) = "drift of {building}, storey {storey}: {peak}";
+    shear_of_storey(building, storey, peak) = "shear of {building}, storey {storey}: {peak}";
+    acceleration_of_floor(building, floor, peak) = "acceleration of {building}, floor {floor}: {peak}";
     peak_ground_acceleration = "Peak ground acceleration";
     name_and_across(name, across, peak) = "{name} (across {across}, peak {peak})";
     under_the_motion(name, peak, imbalance) = "Under {name}, peak {peak}. Energy imbalance {imbalance}.";
@@ -550,6 +558,7 @@ messages! {
     outside_the_model = "Outside the model: no basis for design.";
     results_are_outside(drifts, limit) = "{drifts}. Beyond {limit}, real members lose strength and displacements are no longer small; this model includes neither effect. Results in grey show that the building is badly damaged or lost, but not how badly.";
     until_the_run_ended = "Until the run ended:";
+    with_nominal_bearings(verdict) = "With nominal bearings: {verdict}";
     drift_of(name, drift) = "{name}: drift {drift}";
 
     // bounds
@@ -1187,6 +1196,12 @@ messages! {
     limit_of_level(level) = "{level}";
     beyond_at(level) = "beyond {level} at";
 
+    // pounding_effect
+    effect_of_pounding = "Effect of pounding";
+    with_contact_over_without = "Peak with contact divided by peak without: the largest and the smallest ratio over the height.";
+    ratio_at_floor(ratio, floor) = "{ratio} (floor {floor})";
+    ratio_at_storey(ratio, storey) = "{ratio} (storey {storey})";
+
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";
     columns_failed_in_shear(name, failed, total, first, dissipated) = "{name}: {failed} of {total} columns fail in shear, first at {first}; {dissipated} dissipated.";
@@ -1226,6 +1241,7 @@ messages! {
     // jostle-study: suite
     suite_of_no_gap(records) = "{records} records, no gap.";
     suite_pounds(pounding, records) = "The buildings pound under {pounding} of {records} records.";
+    suite_without_contact(records) = "No contact under any of the {records} records.";
     governing_of(name, statistic) = "{name}, {statistic}";
     greatest_value_of_record(value, record) = "greatest {value}, {record}";
     peak_displacement_over_height = "Peak displacement";
@@ -1288,7 +1304,7 @@ messages! {
     to_a_range = " to ";
     show_all_members(count) = "Show all {count} members";
     sezen_and_moehle = "Sezen and Moehle";
-    gap_needed_of_suite(needed, record, there) = " The greatest gap needed is {needed} ({record}); the gap is {there}.";
+    gap_needed_of_suite(needed, record, there) = " The greatest gap needed is {needed} ({record}); the gap is {there}. Each record was run with one sign: jostle gap runs both.";
     key_signs_changed = "signs changed";
     key_factor_on_the_record = "factor on the record";
     key_angle_of_incidence = "angle of incidence";

@@ -108,7 +108,7 @@ pub fn render_suite(page: &SuitePage) -> String {
                     @if !page.accuracy.is_empty() { p.quiet { b { (message::accuracy()) " " } (page.accuracy) "." } }
                     (quantities(page))
                     (records(page))
-                    (checks::found(&page.checks, &[]))
+                    (checks::found(&page.checks, &[], &[]))
                     @for section in &page.sections { (charts(section)) }
                     section #files {
                         h2 { (message::files()) }

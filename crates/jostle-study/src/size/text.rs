@@ -161,8 +161,12 @@ impl SizeResults {
         } else if self.stopped {
             format!("Stopped after {} trials.", self.trials.len())
         } else {
+            let lower = match self.best() {
+                Some(_) => " The smallest may lie lower; raise --trials.",
+                None => "",
+            };
             format!(
-                "Stopped at {} trials before converging: the smallest may lie lower. Raise --trials.",
+                "Stopped after {} trials before converging: the next round would exceed --trials.{lower}",
                 self.trials.len()
             )
         });

@@ -158,7 +158,11 @@ impl SuiteResults {
         {
             return message::suite_of_no_gap(done.len());
         }
-        message::suite_pounds(pounding, done.len()) + &self.gap_needed_in_words(&done)
+        let pounds = match pounding {
+            0 => message::suite_without_contact(done.len()),
+            some => message::suite_pounds(some, done.len()),
+        };
+        pounds + &self.gap_needed_in_words(&done)
     }
 
     /// The greatest gap that a record needs beside the gap there is, of models with one gap.
@@ -177,9 +181,9 @@ impl SuiteResults {
         match (needed, gap["width_m"].as_f64()) {
             (Some((_, needed)), Some(there)) if needed.maximum > 0.0 => {
                 let record = self.records[needed.maximum_record].motion();
-                let shown = |value: f64| format!("{} {}", LENGTH.rounded_up(value), LENGTH.name());
                 let there = jostle_report::with_unit(LENGTH.of(there), LENGTH.name());
-                message::gap_needed_of_suite(shown(needed.maximum), record, there)
+                let needed = jostle_report::with_unit(LENGTH.of(needed.maximum), LENGTH.name());
+                message::gap_needed_of_suite(needed, record, there)
             }
             _ => String::new(),
         }
