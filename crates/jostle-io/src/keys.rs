@@ -1217,7 +1217,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Damage, "energy", Quantity(D::Dimensionless), "0", "Growth of the next peak per dissipated energy, divided by the energy of loading both sides to yield.").usual("a damage coefficient", 1e-5, 10.0),
 
     required(S::Gap, "between", Neighbours, "Names of the left and the right neighbour: buildings, or a [[wall]]; \"wall\" is a rigid wall at an end of the row. Between buildings with plans and at, the last [[gap]] may say \"all\" or omit this key: it then applies to all neighbours within reach that have no gap of their own."),
-    optional(S::Gap, "width", PerContact(D::Length), "Width at rest, required except between plans with at: one value, or one for each contact, in the order of floors, or from the lowest contact up if floors are not listed.").range(GAP),
+    optional(S::Gap, "width", PerContact(D::Length), "Width at rest, required except between buildings that have a plan and at: one value, or one for each contact, in the order of floors, or from the lowest contact up if floors are not listed.").range(GAP),
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights.").any("heights are compared with those of the floors"),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by at most this much can be in contact.").usual("a level tolerance", 1e-5, 1.0).possible(0.0, 20.0),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
@@ -1226,7 +1226,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution.").usual("a coefficient of restitution", 1e-3, 1.0),
     default(S::Gap, "restitution_is", Choice(RESTITUTION_IS), "\"input\"", "\"input\": e is used in the published formula. \"realised\": damping is calibrated so that free masses rebound with e."),
 
-    optional(S::Gap, "damping", Quantity(D::Damping), "kelvin, kelvin-no-tension, and modified-kelvin with variant = \"mahmoud-jankowski\": dashpot of every contact instead of restitution, independent of the masses; between plans that of a whole face.").usual("a dashpot coefficient", 100.0, 1e10),
+    optional(S::Gap, "damping", Quantity(D::Damping), "kelvin, kelvin-no-tension, and modified-kelvin with variant = \"mahmoud-jankowski\": dashpot of every contact instead of restitution, independent of the masses; between buildings with a plan that of a whole face.").usual("a dashpot coefficient", 100.0, 1e10),
     default(S::Gap, "variant", Choice(LAW_VARIANTS), "\"ye\"", "modified-kelvin: ye, damping proportional to the indentation; mahmoud-jankowski, damping during approach only."),
     default(S::Gap, "yield_share", Quantity(D::Dimensionless), "0.1", "bilinear: yield indentation ÷ greatest design indentation.").usual("a share", 1e-4, 1.0),
     optional(S::Gap, "design_speed", Quantity(D::Speed), "bilinear: impact speed used to compute its stiffnesses; by default the speed of each impact.").usual("an impact speed", 0.01, 20.0),
@@ -1235,14 +1235,14 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Gap, "crush", Kind::Table(S::Crush), "linear and hertz: crushing of the face, such as `{ force = \"600 kN\", hardening = 0.05 }`. Crushing is permanent and widens the gap."),
     optional(S::Gap, "thickness", Quantity(D::Length), "rubber: thickness of the bumper.").usual("a bumper thickness", 0.001, 1.0).possible(0.0, 10.0),
     default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "rubber: exponent of the compression.").usual("an exponent", 0.5, 10.0),
-    optional(S::Gap, "stiffness_per_length", ContactStiffness, "Between plans, instead of stiffness: stiffness of a face per metre of its length.").usual("a contact stiffness per length", 1e4, 1e13),
-    default(S::Gap, "points", Count, "5", "Between plans: contact points of a face, 2 to 9, by the Lobatto rule. Two points overestimate the rotational stiffness."),
-    default(S::Gap, "reach", Quantity(D::Length), "\"0.5 m\"", "Between plans: greatest distance of edges that can come into contact.").usual("a reach", 0.001, 50.0),
-    default(S::Gap, "friction", Quantity(D::Dimensionless), "0", "Between plans: coefficient of friction along faces, at least 0 and below 1; about 0.4 for concrete on concrete.").usual("a coefficient of friction", 1e-3, 1.0),
-    optional(S::Gap, "tangential_stiffness", Quantity(D::Stiffness), "Between plans with friction: tangential stiffness of a whole face during sticking; by default 0.89 times the normal stiffness.").usual("a tangential stiffness", 1e4, 1e13),
+    optional(S::Gap, "stiffness_per_length", ContactStiffness, "Between buildings with a plan, instead of stiffness: stiffness of a face per metre of its length.").usual("a contact stiffness per length", 1e4, 1e13),
+    default(S::Gap, "points", Count, "5", "Between buildings with a plan: contact points of a face, 2 to 9, by the Lobatto rule. Two points overestimate the rotational stiffness."),
+    default(S::Gap, "reach", Quantity(D::Length), "\"0.5 m\"", "Between buildings with a plan: greatest distance of edges that can come into contact.").usual("a reach", 0.001, 50.0),
+    default(S::Gap, "friction", Quantity(D::Dimensionless), "0", "Between buildings with a plan: coefficient of friction along faces, at least 0 and below 1; about 0.4 for concrete on concrete.").usual("a coefficient of friction", 1e-3, 1.0),
+    optional(S::Gap, "tangential_stiffness", Quantity(D::Stiffness), "Between buildings with a plan, with friction: tangential stiffness of a whole face during sticking; by default 0.89 times the normal stiffness.").usual("a tangential stiffness", 1e4, 1e13),
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact with less time between them count as one.").usual("a time", 1e-5, 10.0),
 
-    required(S::Crush, "force", Quantity(D::Force), "Force at which crushing begins; between plans that of a whole face.").usual("a crushing force", 1e3, 1e9),
+    required(S::Crush, "force", Quantity(D::Force), "Force at which crushing begins; between buildings with a plan that of a whole face.").usual("a crushing force", 1e3, 1e9),
     default(S::Crush, "hardening", Quantity(D::Dimensionless), "0", "Ratio of the stiffness during crushing to that at its onset, from 0 to below 1; with hertz below 2/3.").usual("a hardening ratio", 1e-4, 1.0),
 
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. The same building twice: links between its floors."),
