@@ -691,7 +691,7 @@ class Gap(Part):
         width: width at rest, a length ≥ 0, or a list for the contacts in the order of ``floors``, from the lowest up
             if these are not listed.
         between: names of the left and the right neighbour, ``"wall"`` for a rigid wall at an end of the row; in order
-            by default. Between plans with ``at``, ``"all"`` of the last gap stands for all neighbours within reach
+            by default. Between buildings with a plan that have ``at``, ``"all"`` of the last gap stands for all neighbours within reach
             that have no gap of their own.
         floors: ``"common"`` (default), ``"all"`` for floors against floors or columns, pairs of floors or heights
             ``[[5, 5], [4, "12.8 m"]]``, or heights.
@@ -703,7 +703,7 @@ class Gap(Part):
             calibrated so that free masses rebound with it.
         damping: of ``"kelvin"``, ``"kelvin-no-tension"`` and ``"modified-kelvin"`` with
             ``variant="mahmoud-jankowski"``: dashpot of every contact instead of ``restitution``, the same whatever the
-            masses; between plans that of a whole face.
+            masses; with a plan that of a whole face.
         formula: of the law ``"formula"``: the contact force in N, as ``"k * d^1.5 * (1 + 0.6 * v / v0)"``, in terms of
             indentation ``d``, its rate ``v``, impact speed ``v0``, ``stiffness`` ``k``, ``restitution`` ``e`` and effective
             mass ``m``, all in SI.
@@ -719,11 +719,11 @@ class Gap(Part):
             crushed: the gap is wider afterwards.
         thickness: of the law ``"rubber"``: thickness of the bumper.
         exponent: of the law ``"rubber"``: exponent of the compression, 2.65 by default.
-        stiffness_per_length: between plans, instead of ``stiffness``: that of a face per metre of its length.
-        points: between plans: contact points of a face, 2 to 9, 5 by default.
-        reach: between plans: greatest distance of edges that can touch, 0.5 m by default.
-        friction: between plans: coefficient of friction along faces, at least 0 and below 1; 0 by default.
-        tangential_stiffness: between plans with friction: stiffness of a whole face against sliding while it sticks;
+        stiffness_per_length: with a plan, instead of ``stiffness``: that of a face per metre of its length.
+        points: with a plan: contact points of a face, 2 to 9, 5 by default.
+        reach: with a plan: greatest distance of edges that can touch, 0.5 m by default.
+        friction: with a plan: coefficient of friction along faces, at least 0 and below 1; 0 by default.
+        tangential_stiffness: with a plan and friction: stiffness of a whole face against sliding while it sticks;
             without it, 0.89 times that against pressing.
         minimum_separation: impacts of one contact closer in time than this count as one, 0 s by default.
         **units: the same with units in names, as in ``width_mm=20``.

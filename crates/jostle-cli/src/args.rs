@@ -258,10 +258,10 @@ pub(crate) struct SectionArgs {
     /// Bars, such as "12 d20" around, or "4 d25 top, 3 d25 bottom"
     #[arg(long, value_name = "BARS", required_unless_present = "model")]
     pub(crate) bars: Option<String>,
-    /// Grade C20 to C60 of GB 50010, or prismatic strength
+    /// C30, C30/37, "f'c = 4 ksi", or prismatic strength
     #[arg(long, value_name = "GRADE", default_value = "C30")]
     pub(crate) concrete: String,
-    /// Grade HRB335 to HRB500, or yield strength
+    /// HRB400, B500B, "Grade 60", or yield strength
     #[arg(long, value_name = "GRADE", default_value = "HRB400")]
     pub(crate) steel: String,
     /// Strength level of the grade

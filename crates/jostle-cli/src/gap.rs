@@ -270,7 +270,7 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
             GROUND_ACCELERATION.text(gap.pga_m_s2, 1)
         );
         if gap.motion_is_reduced {
-            text += "  The motion is reduced (motion = \"reduced\" under [codes]), and so are the gap needed, ABS, SRSS and DDC.\n  Widths of codes are for the full motion: run it in full to compare them.\n";
+            text += "  The motion is reduced (motion = \"reduced\" under [codes]), and so are the gap needed, ABS, SRSS and DDC.\n  Code gaps refer to the full motion: run it in full to compare them.\n";
         }
         let bracket = match gap.pounding_at_m {
             Some(hit) => format!("at {} there is an impact", millimetres(hit)),
@@ -338,16 +338,16 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
     }
     if fewest < FEW_RECORDS {
         text += &format!(
-            "\n{} no design value: codes require 3, 7 or 11 records.",
+            "\n{} not give a design value: codes require 3, 7 or 11 records.",
             match fewest {
-                1 => "One record is".to_owned(),
-                several => format!("{} are", counted(several, "record")),
+                1 => "One record does".to_owned(),
+                several => format!("{} do", counted(several, "record")),
             }
         );
     } else {
-        text += "\nThe choice of records stays yours.";
+        text += "\nYou are responsible for the choice of records.";
     }
-    text + " Widths of codes are minima. Add construction tolerance, temperature and tilt.\n"
+    text + " Code gaps are minimum values: add construction tolerance, temperature and tilt.\n"
 }
 
 /// What a gap leads to, by the sign of the motion with the greater force.

@@ -40,8 +40,8 @@ pub(crate) fn write_codes(
         let codes = short.join("; ");
         let computed = LENGTH.text(computed, 1);
         let (minimum, are) = match short.len() {
-            1 => ("minimum", "is"),
-            _ => ("minima", "are"),
+            1 => ("minimum gap", "is"),
+            _ => ("minimum gaps", "are"),
         };
         writeln!(
             text,

@@ -960,7 +960,7 @@ messages! {
     motion_reversed(motion) = "{motion}, reversed";
     either_sign_of_the_motion = ", either sign of the motion";
     under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion} with {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
-    one_record_is_no_design_value = "One record gives no design value: codes require 3, 7 or 11 records.";
+    one_record_is_no_design_value = "One record does not give a design value: codes require 3, 7 or 11 records.";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
     greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts against the gap width, with all other gaps too wide to close. Dashed: the motion reversed. Dots: rules that require less than the gap needed. Jumps between adjacent points show that a slightly different gap leads to different impacts.{warning}";

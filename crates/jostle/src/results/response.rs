@@ -40,7 +40,7 @@ impl BuildingResponse {
         Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "peak total acceleration of any floor", |b| b.total_acceleration_peak_m_s2).in_study().compared(),
         Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "peak total acceleration after a low-pass filter, 25 Hz or the corner of floor spectra; null without histories", |b| b.filtered_acceleration_peak_m_s2),
         Quantity::<Self>::real("residual_drift_peak", Unit::NONE, "greatest drift ratio of any storey at the end, including remaining vibration", |b| b.residual_drift_peak).in_study().compared(),
-        Quantity::<Self>::real("base_shear_peak_n", Unit::N, "peak horizontal force on the ground, from columns, walls, braces, dampers and the base; for an isolated building, from its bearings and stops", |b| b.base_shear_peak_n).in_study().compared(),
+        Quantity::<Self>::real("base_shear_peak_n", Unit::N, "peak base shear: horizontal restoring force between building and ground (on soil, between building and foundation), with bearings, stops and links to the ground, without contact forces and dashpots of the building, its bearings and its base", |b| b.base_shear_peak_n).in_study().compared(),
         Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end, including remaining vibration", |b| b.residual_roof_displacement_m).in_study().compared(),
         Quantity::<Self>::whole("hinges_cracked", "hinges that cracked", |b| b.hinges_cracked).in_study().compared().if_yielding(),
         Quantity::<Self>::whole("hinges_yielded", "hinges that yielded", |b| b.hinges_yielded).in_study().compared().if_yielding(),

@@ -107,7 +107,7 @@ impl BuildingSummary {
 impl BuildingSummary {
     /// Numbers that do not depend on the motion.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("mass_kg", Unit::KG, "vibrating mass", |b| b.mass_kg),
+        Quantity::<Self>::real("mass_kg", Unit::KG, "mass that moves relative to the ground, with the mat, the foundation and the base", |b| b.mass_kg),
         Quantity::<Self>::optional("period_s", Unit::S, "period of the first lateral mode", |b| b.periods_s.first().copied()).not_in_summary().in_study(),
         Quantity::<Self>::real("rayleigh_alpha_per_s", Unit::PER_S, "Rayleigh damping: coefficient of the mass", |b| b.rayleigh_alpha_per_s),
         Quantity::<Self>::real("rayleigh_beta_s", Unit::S, "Rayleigh damping: coefficient of the stiffness", |b| b.rayleigh_beta_s),

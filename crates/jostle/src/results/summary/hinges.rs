@@ -82,7 +82,7 @@ impl SpringSummary {
         Quantity::<Self>::optional("cracked_s", Unit::S, "time of cracking; 0 if self weight alone causes it", |s| s.cracked_s),
         Quantity::<Self>::optional("yielded_s", Unit::S, "time of yielding; 0 if self weight alone causes it", |s| s.yielded_s),
         Quantity::<Self>::real("deformation_max", Unit::RAD_OR_M, "greatest deformation in the positive direction", |s| s.deformation_max),
-        Quantity::<Self>::real("deformation_min", Unit::RAD_OR_M, "greatest deformation in the negative direction", |s| s.deformation_min),
+        Quantity::<Self>::real("deformation_min", Unit::RAD_OR_M, "greatest deformation in the negative direction, as a magnitude", |s| s.deformation_min),
         Quantity::<Self>::real("ductility", Unit::NONE, "ratio of peak rotation of the member end to yield rotation; for storeys, of peak to yield deformation", |s| s.ductility),
         Quantity::<Self>::real("peak_force", Unit::NM_OR_N, "peak moment; for storeys, peak shear", |s| s.peak_force),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |s| s.dissipated_j),
