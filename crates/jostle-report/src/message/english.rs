@@ -517,7 +517,7 @@ messages! {
     the_run_ended_early = "The run ended early:";
     peak_force_title = "Peak force";
     with_force_range(place, least, most) = "{place}; {least} to {most} with other contact stiffness and restitution";
-    numerical_error_alone = "This is the numerical error alone. Contact stiffness and the choice of records usually matter more: --sensitivity shows the first, several records the second.";
+    numerical_error_alone = "Contact stiffness and the choice of records usually matter more: add --sensitivity, and run several records.";
     first_at(instant) = "first at {instant}";
     none = "none";
     peak_closing_title(pair) = "Peak closing{pair}";
