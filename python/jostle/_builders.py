@@ -131,7 +131,8 @@ class Frame(Part):
             what they bear across their plane, and with ``"remove": True`` they fall out; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
             ``"damage_drifts"`` are the drifts of four damage states.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
-            they yield at their feet, or above its ``"floors"``.
+            they yield at their feet, or above its ``"floors"``. Bars make feet of fibres: ``{"steel": "HRB400",
+            "bars": {"edges": "8 d20", "edge_length": "500 mm", "web": "20 d10"}, "hinge": {"rule": "fibre", "length": "1 m"}}``.
         coupling_beam: beams between walls with properties of their own, whose forces are reported:
             ``[{"between": [1, 2], "width": "250 mm", "depth": "800 mm"}]``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.

@@ -105,6 +105,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::WallHinge, "`hinge` of a wall", ""),
     (
+        Section::WallBars,
+        "`bars` of a wall",
+        "Both edges are alike. See [Fibres](how-to/walls.md#fibres).",
+    ),
+    (
         Section::CouplingBeam,
         "`[[building.coupling_beam]]`",
         "Beams between walls whose forces are reported. Beams between walls that are defined by `[[building.beam]]` are ordinary beams between faces. A coupling beam yields in shear: its shear deformation is a spring with the rule and the corners of `hinge`.",
