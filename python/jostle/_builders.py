@@ -124,8 +124,8 @@ class Frame(Part):
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         rotation_limit: rotations of hinges at which members reach levels of performance:
             ``[{"of": "columns", "limits": {"io": "5 mrad", "ls": "15 mrad", "cp": "20 mrad"}}]``.
-        brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
-            yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
+        brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``, or
+            ``{"from": "0.1", "to": "2.3", "EA": "2 GN"}`` from floor and line to floor and line; with ``"hinge"`` they yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
             what they bear across their plane, and with ``"remove": True`` they fall out; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and

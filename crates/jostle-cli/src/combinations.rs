@@ -186,6 +186,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "columns by line", keys: COLUMNS, ..USUAL },
         Feature { name: "elevation of the base", keys: "elevation = \"-1.4 m\"\n", ..USUAL },
         Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
+        Feature { name: "braces over several storeys", tables: "[[building.brace]]\nfrom = \"0.1\"\nto = \"2.2\"\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "infill panels that fall out", tables: "[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = 0.2\nwidth = \"mainstone\"\nout_of_plane = { strength = \"4 kPa\", density = 1400, remove = true }\n", ..USUAL },
         Feature { name: "struts off the joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },

@@ -41,6 +41,8 @@ pub(crate) enum Section {
     PlanFrame,
     /// Bays of a plane frame.
     FrameBay,
+    /// Joints between which a brace of a frame stands.
+    FrameBrace,
     /// Bays of a grid.
     GridBay,
     /// Diagonals of the bays of a frame.
@@ -719,7 +721,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
     default(S::Frame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "Fraction of the half depths of columns and beams that is rigid inside joints: 1 up to the faces, 0 for no rigid ends; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at member ends; without them the frame is elastic."),
-    optional(S::Frame, "brace", Tables(&[S::FrameBay, S::Brace]), "Braces between joints."),
+    optional(S::Frame, "brace", Tables(&[S::FrameBay, S::FrameBrace, S::Brace]), "Braces between joints."),
     optional(S::Frame, "infill", Tables(&[S::FrameBay, S::Infill]), "Masonry panels in the bays."),
     optional(S::Frame, "wall", Tables(&[S::FrameWall]), "Walls, each of which replaces a column line."),
     optional(S::Frame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls, with separate properties."),
@@ -768,7 +770,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
     default(S::PlanFrame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "Fraction of the half depths of columns and beams that is rigid inside joints: 1 up to the faces, 0 for no rigid ends; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at member ends, given by moments; without them the frame is elastic."),
-    optional(S::PlanFrame, "brace", Tables(&[S::FrameBay, S::Brace]), "Braces between joints."),
+    optional(S::PlanFrame, "brace", Tables(&[S::FrameBay, S::FrameBrace, S::Brace]), "Braces between joints."),
     optional(S::PlanFrame, "infill", Tables(&[S::FrameBay, S::Infill]), "Masonry panels in the bays."),
     optional(S::PlanFrame, "wall", Tables(&[S::FrameWall]), "Walls, each of which replaces a column line."),
     optional(S::PlanFrame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls, with separate properties."),
@@ -777,6 +779,8 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::GridBay, "along", Choice(AXES_OF_PLAN), "Direction of the bays: along x or across (y)."),
     default(S::GridBay, "x", Kind::FromTo, "all", "Line of lines_x at which a bay along x begins, or on which a bay across lies, counted from 1; or the first and the last."),
     default(S::GridBay, "y", Kind::FromTo, "all", "Line of lines_y on which a bay along x lies, or at which a bay across begins, counted likewise."),
+    optional(S::FrameBrace, "from", Text, "Joint at one end as FLOOR.LINE, such as \"0.1\", instead of storeys, bay and direction; floor 0 is the ground. It may be any joint of another floor, also storeys and bays away."),
+    optional(S::FrameBrace, "to", Text, "Joint at the other end."),
     default(S::Brace, "storeys", Kind::FromTo, "all", "Storey, counted from 1; or the first and the last."),
     default(S::Brace, "direction", Choice(DIRECTIONS), "\"up\"", "From the lower left to the upper right corner of the bay, from the upper left to the lower right, or both. In a grid, right is the direction of increasing x or y."),
     optional(S::Brace, "profile", TextOrTable(S::Profile), "Steel profile instead of EA, as for columns. With `yield_strength` in hinge it also gives yield, slenderness and lever arm for the rule buckling."),

@@ -64,6 +64,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Also of a frame at a line of a plan.",
     ),
     (
+        Section::FrameBrace,
+        "`[[building.brace]]` of a plane frame, further keys",
+        "",
+    ),
+    (
         Section::GridBay,
         "`[[building.brace]]` and `[[building.infill]]` of a space frame",
         "Without both x and y, they are only in bays within the plan of their floor, where there are joints.",

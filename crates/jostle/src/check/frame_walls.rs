@@ -86,11 +86,16 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
         }
     }
     for diagonal in &frame.diagonals {
-        let walls = diagonal.place.lines().map(|line| {
-            let storey = diagonal.place.storey.checked_sub(1)?;
-            frame.wall([storey, line])
-        });
-        if let Some(wall) = walls.into_iter().flatten().next() {
+        if diagonal.place.storey == 0 {
+            continue;
+        }
+        // In the storeys within its ends, and where it crosses one bay at least.
+        let ([low, high], lines) = (diagonal.place.floors(), diagonal.place.lines());
+        let ends = [(low, lines[0]), (high.saturating_sub(1), lines[1])];
+        let mut walls = ends
+            .into_iter()
+            .filter_map(|place| frame.wall(place.into()));
+        if let Some(wall) = walls.next() {
             let kind = diagonal.place.kind.name();
             faults.add(format!("{path}.{kind}"), format!(
                 "{} meets the wall at line {}, beside which braces and panels are not modelled; leave it out there",

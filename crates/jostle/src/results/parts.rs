@@ -4,6 +4,7 @@ use super::summarise::{Run, springs_of};
 use super::summary::{BuildingSummary, FibreSummary, PartSummary, SpringSummary};
 use crate::history::{Kind, Owner};
 use crate::hysteresis::{HysteresisRule, Stage};
+use crate::model::Reach;
 use crate::stepping::Outcome;
 use crate::structure::{
     CouplingForce, DiagonalForce, FrameDiagonal, MemberPlace, SpringPlace, WallForce,
@@ -320,12 +321,16 @@ fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> Strin
     }
 }
 
-/// Name within its frame; only where two cross it says which way it rises.
+/// Name within its frame; only where two cross in a bay it says which way it rises.
 fn local_name(building: &BuildingSystem, diagonal: &FrameDiagonal) -> String {
+    if diagonal.place.reach != Reach::BAY {
+        return diagonal.place.to_string();
+    }
     let bay = |diagonal: &FrameDiagonal| {
         let place = diagonal.place;
         (
             diagonal.frame,
+            place.reach,
             place.kind,
             place.line,
             place.storey,
