@@ -5,7 +5,7 @@ use jostle::{Axial, DiagonalPlace, Frame};
 use super::brace::{self, Bays, Widths};
 use super::building::{per_storey, storeys};
 use super::section::{Material, read_modulus};
-use super::{frame_members, frame_walls, infill, joint, rigid_ends};
+use super::{frame_members, frame_walls, infill, joint, reinforced, rigid_ends};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -113,6 +113,7 @@ fn read_members(
         heights: &storey_heights,
         spans: &spans,
         materials,
+        concrete: reinforced::of_building(reader, view),
     };
     let walls = frame_walls::read(reader, view, bays);
     let members = frame_members::read(reader, view, count, &spans, materials, &walls);
@@ -165,6 +166,7 @@ fn read_members(
                 .lines()
                 .map(|line| Some(column(line)?.flexural_rigidity))
         },
+        has_joint: &|[floor, line]| frame.has_joint(floor, line),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);

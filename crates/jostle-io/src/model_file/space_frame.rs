@@ -328,6 +328,7 @@ fn add_diagonals(
         heights: storey_heights,
         widths: Widths::OfGrid(&widths),
         column_rigidity: &column_rigidity,
+        has_joint: &|_| false,
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);

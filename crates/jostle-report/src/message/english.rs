@@ -1147,8 +1147,8 @@ messages! {
     no_connection_to_jostle = "No connection to jostle. If it has ended, start it again. Reconnecting …";
 
     // fibres
-    columns_that_follow_their_axial_force = "Columns whose strength follows the axial force";
-    ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} column ends, and concrete passed its peak strength at {crushed}.";
+    columns_that_follow_their_axial_force = "Columns and walls whose strength follows the axial force";
+    ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} member ends, and concrete passed its peak strength at {crushed}.";
     compression = "compression";
     least_to_greatest(least, greatest) = "{least} to {greatest}";
     moment_across = "moment across";

@@ -39,7 +39,8 @@ pub use capacity::{
     ShearCapacity,
 };
 pub use diagonal::{
-    Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Rise, StrutLine,
+    Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Reach, Rise,
+    StrutLine,
 };
 pub use fibres::{ColumnFibres, Fibre, FibreLimit, FibreMaterial};
 pub(crate) use floor_matrices::displacement_in_words;

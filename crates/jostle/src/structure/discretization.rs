@@ -509,7 +509,10 @@ pub(super) fn discretize_frame(
             let mut ends = faces;
             let wall = frame.wall([storey, line]);
             let grid = wall.is_none().then_some(hinges);
-            let fibres = grid.and_then(|grid| grid.fibres.get(&[storey, line]));
+            let fibres = match wall {
+                Some(wall) => wall.fibres.get(&(storey + 1)),
+                None => hinges.fibres.get(&[storey, line]),
+            };
             let hinge = grid.and_then(|grid| grid.columns.get(storey)?.get(line));
             let hinge = hinge.filter(|_| fibres.is_none());
             let shear = grid.and_then(|grid| grid.shear.get(storey)?.get(line));
@@ -539,7 +542,7 @@ pub(super) fn discretize_frame(
                 let node = &mut ends[end as usize];
                 if let Some(fibres) = fibres.filter(|fibre| fibre.at_ends[end as usize]) {
                     let place = [storey + 1, line + 1];
-                    let (beyond, section) = stick_model.add_fibres(joint, fibres, place, end);
+                    let (beyond, section) = stick_model.add_fibres(*node, fibres, place, end);
                     *node = beyond;
                     row_places.extend(section.places());
                     discretization.sections.push(section);

@@ -101,6 +101,8 @@ impl MemberForces {
                 number: index + 1,
                 hinge: foot,
                 upper_hinges: upper.filter(|upper| *upper != foot).collect(),
+                foot_section: None,
+                sections: Vec::new(),
                 sliding: None,
                 axial,
                 moment,

@@ -161,7 +161,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
             .iter()
             .zip(elongations)
             .map(|(diagonal, row)| {
-                let ends = [diagonal.place.storey - 1, diagonal.place.storey].map(level);
+                let ends = diagonal.place.floors().map(level);
                 FrameDiagonal::new(diagonal, ends, row).in_space(frame.direction)
             });
         for space in found.collect::<Vec<_>>() {
