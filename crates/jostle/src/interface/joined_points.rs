@@ -60,15 +60,9 @@ impl JoinedPoints {
 
     /// Points of a building of the model between its floors at which others can strike it, or links end.
     pub(crate) fn struck_points(&self, model: &Model, building: usize) -> StruckPoints {
-        match model.is_in_space() {
-            true => StruckPoints {
-                columns: struck_columns(model, building),
-                ..StruckPoints::default()
-            },
-            false => StruckPoints {
-                faces: self.points_on_faces(model, building),
-                ..StruckPoints::default()
-            },
+        StruckPoints {
+            faces: self.points_on_faces(model, building),
+            columns: struck_columns(model, building),
         }
     }
 

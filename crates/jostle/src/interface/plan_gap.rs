@@ -108,7 +108,7 @@ impl Side<'_> {
         }
         let (storey, above) = self.storey(height?)?;
         let plan = self.plans.get(storey + 1 - self.first)?;
-        Some((Level::Columns(storey, above), plan))
+        Some((Level::Columns { storey, above }, plan))
     }
 }
 
@@ -117,7 +117,10 @@ impl Side<'_> {
 enum Level {
     Floor(Touched),
     /// Storey, from 0, and height above its lower floor \[m\].
-    Columns(usize, f64),
+    Columns {
+        storey: usize,
+        above: f64,
+    },
 }
 
 /// Faces of a gap with what they touch, from the lowest up; `None` where its buildings or floors do not fit.
@@ -151,14 +154,14 @@ fn faces_of_pair(
             let faces = faces.into_iter();
             faces.map(|face| ([one, other], face)).collect()
         }
-        (Level::Floor(slab), Level::Columns(storey, above)) => {
+        (Level::Floor(slab), Level::Columns { storey, above }) => {
             let columns = sides[1].struck_by(&faces, 1, storey, contact).into_iter();
             let touched = |column| [slab, Touched::Column(column, above)];
             columns
                 .map(|(column, face)| (touched(column), face))
                 .collect()
         }
-        (Level::Columns(storey, above), Level::Floor(slab)) => {
+        (Level::Columns { storey, above }, Level::Floor(slab)) => {
             let columns = sides[0].struck_by(&faces, 0, storey, contact).into_iter();
             let touched = |column| [Touched::Column(column, above), slab];
             columns
@@ -166,7 +169,7 @@ fn faces_of_pair(
                 .collect()
         }
         // Columns do not reach each other before slabs do.
-        (Level::Columns(..), Level::Columns(..)) => Vec::new(),
+        (Level::Columns { .. }, Level::Columns { .. }) => Vec::new(),
     }
 }
 
@@ -185,7 +188,7 @@ pub(crate) fn columns_not_met(model: &Model, gap: &Gap) -> Vec<(usize, bool)> {
     let missed = pairs.filter_map(|(entry, pair)| {
         let on_columns = [0, 1].map(|side: usize| {
             let level = sides[side].level(pair[side]);
-            matches!(level, Some((Level::Columns(..), _)))
+            matches!(level, Some((Level::Columns { .. }, _)))
         });
         let touches = !faces_of_pair(&sides, pair, &gap.in_plan).is_empty();
         (on_columns != [false; 2] && !touches).then_some((entry, on_columns == [true; 2]))

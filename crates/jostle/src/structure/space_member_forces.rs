@@ -188,10 +188,9 @@ impl MemberForces {
 impl AssembledBuilding {
     /// Displacements of a node along the row and, in plan, across.
     pub(super) fn horizontal_dofs(&self, node: usize) -> [Option<usize>; 2] {
-        let across = &self.discretization.stick_model.nodes[node].influence[Y];
-        let moves_across = across.across != 0.0;
+        let second = &self.discretization.stick_model.nodes[node].influence[Y];
         let dof = |component| self.equations.dof((node, component));
-        [dof(X), dof(Y).filter(|_| moves_across)]
+        [dof(X), dof(Y).filter(|_| second.across != 0.0)]
     }
 }
 
