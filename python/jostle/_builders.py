@@ -411,6 +411,7 @@ class SpaceFrame(Part):
         shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
         poisson_ratio: for the shear modulus, 0.2 by default.
+        density: of columns and walls, 2500 kg/m³ by default; the mass of the floors includes them.
         rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
             ``{"beams": "0.25 m", "columns": "0.3 m"}``.
         brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``,
@@ -489,6 +490,7 @@ class SpaceFrame(Part):
         axial: _Flexibility | None = None,
         shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
+        density: Quantity | None = None,
         rigid_ends: float | Table | None = None,
         brace: Sequence[Table] | None = None,
         infill: Sequence[Table] | None = None,
@@ -538,6 +540,7 @@ class SpaceFrame(Part):
                 "axial": axial,
                 "shear": shear,
                 "poisson_ratio": poisson_ratio,
+                "density": density,
                 "rigid_ends": rigid_ends,
                 "brace": brace,
                 "infill": infill,

@@ -892,6 +892,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceFrame, "axial", Choice(AXIAL), "\"flexible\"", "Axial deformation of columns; floors are rigid."),
     default(S::SpaceFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::SpaceFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
+    default(S::SpaceFrame, "density", Quantity(D::Density), "\"2500 kg/m3\"", "Density of columns and walls, which the mass of the floors includes. Points between floors that neighbours can strike, or that struts meet, carry their share of it instead of the floors. A weight per volume is converted.").usual("a density", 100.0, 2e4).possible(0.0, 1e6),
     default(S::SpaceFrame, "angle", Quantity(D::Dimensionless), "0", "Angle from x of the site to the grid lines along x, counter-clockwise, such as \"30 deg\". It rotates the plan and mass_centre as well.").usual("an angle", 1e-4, 6.3).signed(),
     required(S::SpaceWall, "along", Choice(AXES_OF_PLAN), "Direction of its length: along x or across (y)."),
     required(S::SpaceWall, "length", Quantity(D::Length), "Length. Beams along it frame into its edges, and move vertically as they do.").usual("a wall length", 0.5, 40.0),

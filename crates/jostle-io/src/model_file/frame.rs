@@ -15,7 +15,7 @@ use crate::tree::Value;
 const MOST_SPANS: usize = 50;
 
 /// Density of reinforced concrete \[kg/m³\].
-const CONCRETE_DENSITY: f64 = 2500.0;
+pub(super) const CONCRETE_DENSITY: f64 = 2500.0;
 
 /// Poisson's ratio of concrete \[–\] (GB 50010-2010, clause 4.1.8).
 const CONCRETE_POISSON_RATIO: f64 = 0.2;
@@ -188,7 +188,7 @@ fn read_members(
 }
 
 /// Density of the columns \[kg/m³\].
-fn read_density(reader: &mut Reader<'_>, view: &View<'_>, usual: f64) -> f64 {
+pub(super) fn read_density(reader: &mut Reader<'_>, view: &View<'_>, usual: f64) -> f64 {
     let Some(field) = reader.get(view, "density") else {
         return usual;
     };

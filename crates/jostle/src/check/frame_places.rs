@@ -89,21 +89,37 @@ pub(super) fn fault_of_offsets(frame: &Frame, diagonal: &Diagonal) -> Option<Str
         let rigid = frame.rigid_ends_of_column([storey, line])[end];
         (diagonal.offsets[end], rigid, line + 1)
     });
-    ends.into_iter().find_map(|(offset, rigid, line)| {
-        if !(0.0..=0.25 * height).contains(&offset) {
+    let limits = OffsetLimits {
+        place: diagonal.place,
+        storey_height: height,
+    };
+    ends.into_iter()
+        .find_map(|(offset, rigid, line)| limits.fault(&format!("column {line}"), offset, rigid))
+}
+
+/// How far from joints a diagonal may meet columns.
+pub(super) struct OffsetLimits {
+    pub(super) place: DiagonalPlace,
+    pub(super) storey_height: f64,
+}
+
+impl OffsetLimits {
+    /// What is wrong with an offset at a column that is rigid so far from the joint.
+    pub(super) fn fault(&self, column: &str, offset: f64, rigid: f64) -> Option<String> {
+        let most = 0.25 * self.storey_height;
+        if !(0.0..=most).contains(&offset) {
             return Some(format!(
-                "{} meets column {line} {offset} m from the joint; give 0 to a quarter of the storey, {} m",
-                diagonal.place,
-                0.25 * height
+                "{} meets {column} {offset} m from the joint; give 0 to a quarter of the storey, {most} m",
+                self.place
             ));
         }
         (offset > 0.0 && offset <= rigid).then(|| {
             format!(
-                "{} meets column {line} {offset} m from the joint, where it is rigid over {rigid} m; give a greater offset, or shorter rigid_ends",
-                diagonal.place
+                "{} meets {column} {offset} m from the joint, where it is rigid over {rigid} m; give a greater offset, or shorter rigid_ends",
+                self.place
             )
         })
-    })
+    }
 }
 
 /// What is wrong with the place of a diagonal: it is not in the frame, or ends where there is no joint.

@@ -30,7 +30,7 @@ pub struct Diagonal {
     /// Its force if it yields, positive in tension; its initial stiffness then takes the place of `stiffness`.
     pub hysteresis: Option<Hysteresis>,
     /// How far its lower end lies above the joint there, and its upper end below the other joint, along the columns: both ≥ 0, at most a
-    /// quarter of the storey, and zero in a space frame \[m\].
+    /// quarter of the storey \[m\].
     pub offsets: [f64; 2],
     /// What the panel of a strut bears across its plane, if that is compared; it has no part in the motion unless the panel falls.
     pub across: Option<PanelAcross>,

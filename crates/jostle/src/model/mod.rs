@@ -817,6 +817,16 @@ impl Building {
         }
     }
 
+    /// Whether neighbours can hit columns of it between floors.
+    #[must_use]
+    pub fn has_columns_to_hit(&self) -> bool {
+        match &self.structure {
+            Structure::Frame(_) => true,
+            Structure::Tiers(tiers) => tiers.space_frame.is_some(),
+            Structure::Shear(_) | Structure::Given(_) => false,
+        }
+    }
+
     /// Number of floors (= storeys).
     #[must_use]
     pub fn floors(&self) -> usize {
