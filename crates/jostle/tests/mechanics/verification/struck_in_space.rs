@@ -5,7 +5,7 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
     Analysis, Axial, Base, Building, ContactLaw, Damping, Diagonal, DiagonalKind, DiagonalPlace,
     FloorPairs, Frame, FrameHinges, Gap, GridLine, GroundMotion, Hinges, Isolation, Isolator,
-    IsolatorDamping, LawKind, Level, MemberRequest, Model, Outcome, PlanAxis, PlanPoint,
+    IsolatorDamping, LawKind, Level, MemberRequest, Model, Outcome, PlanAxis, PlanPoint, Reach,
     RestitutionIs, Rise, Section, Shear, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
     Structure, StrutLine, Summary, System, Tier, TierStorey, Tiers,
 };
@@ -1011,6 +1011,7 @@ fn struts_off_the_joints_are_those_of_the_plane_limit() {
             storey: 2,
             bay: 1,
             rise,
+            reach: Reach::BAY,
             strut: StrutLine::Central,
         },
         stiffness: if line.is_some() { 4e7 } else { 8e7 },
