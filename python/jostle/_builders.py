@@ -124,14 +124,15 @@ class Frame(Part):
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         rotation_limit: rotations of hinges at which members reach levels of performance:
             ``[{"of": "columns", "limits": {"io": "5 mrad", "ls": "15 mrad", "cp": "20 mrad"}}]``.
-        brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
-            yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
+        brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``, or
+            ``{"from": "0.1", "to": "2.3", "EA": "2 GN"}`` from floor and line to floor and line; with ``"hinge"`` they yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
             what they bear across their plane, and with ``"remove": True`` they fall out; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
             ``"damage_drifts"`` are the drifts of four damage states.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
-            they yield at their feet, or above its ``"floors"``.
+            they yield at their feet, or above its ``"floors"``. Bars make feet of fibres: ``{"steel": "HRB400",
+            "bars": {"edges": "8 d20", "edge_length": "500 mm", "web": "20 d10"}, "hinge": {"rule": "fibre", "length": "1 m"}}``.
         coupling_beam: beams between walls with properties of their own, whose forces are reported:
             ``[{"between": [1, 2], "width": "250 mm", "depth": "800 mm"}]``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
@@ -410,6 +411,7 @@ class SpaceFrame(Part):
         shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
         poisson_ratio: for the shear modulus, 0.2 by default.
+        density: of columns and walls, 2500 kg/m³ by default; the mass of the floors includes them.
         rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
             ``{"beams": "0.25 m", "columns": "0.3 m"}``.
         brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``,
@@ -488,6 +490,7 @@ class SpaceFrame(Part):
         axial: _Flexibility | None = None,
         shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
+        density: Quantity | None = None,
         rigid_ends: float | Table | None = None,
         brace: Sequence[Table] | None = None,
         infill: Sequence[Table] | None = None,
@@ -537,6 +540,7 @@ class SpaceFrame(Part):
                 "axial": axial,
                 "shear": shear,
                 "poisson_ratio": poisson_ratio,
+                "density": density,
                 "rigid_ends": rigid_ends,
                 "brace": brace,
                 "infill": infill,

@@ -186,11 +186,13 @@ fn features() -> Vec<Feature> {
         Feature { name: "columns by line", keys: COLUMNS, ..USUAL },
         Feature { name: "elevation of the base", keys: "elevation = \"-1.4 m\"\n", ..USUAL },
         Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
+        Feature { name: "braces over several storeys", tables: "[[building.brace]]\nfrom = \"0.1\"\nto = \"2.2\"\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "infill panels that fall out", tables: "[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = 0.2\nwidth = \"mainstone\"\nout_of_plane = { strength = \"4 kPa\", density = 1400, remove = true }\n", ..USUAL },
         Feature { name: "struts off the joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },
         Feature { name: "walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\n", ..USUAL },
         Feature { name: "walls that yield at the ends of every storey", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\nhinge = { rule = \"bilinear\", ends = \"all\", initial = 100, yield = \"2 MN.m\", post_yield = 0.02 }\n", keys: OWN_WORDS, ..USUAL },
+        Feature { name: "walls whose feet are fibres", tables: "[[building.wall]]\nline = 1\nlength = 2\nthickness = 0.25\nconcrete = \"C30\"\nsteel = \"HRB400\"\nbars = { edges = \"6 d16\", edge_length = 0.4, web = \"8 d10\" }\nhinge = { rule = \"fibre\", length = 0.5 }\n", keys: "gravity = true\n", ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
@@ -372,6 +374,9 @@ fn model(kind: usize, feature: &Feature) -> String {
             (true, "space-frame") if feature.name == "walls" => WALL_OF_A_GRID.to_owned(),
             (true, "space-frame") if feature.name.starts_with("walls that yield") => {
                 format!("{WALL_OF_A_GRID}hinge = {{ yield = \"2 MN.m\", post_yield = 0.02 }}\n")
+            }
+            (true, "space-frame") if feature.name.starts_with("walls whose feet") => {
+                format!("{WALL_OF_A_GRID}hinge = {{ rule = \"fibre\", length = 0.5 }}\n")
             }
             (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
             _ => added,

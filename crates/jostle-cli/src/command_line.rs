@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::io::Write as _;
-use std::sync::LazyLock;
 
 use clap::error::ContextKind;
 use clap::{Parser, Subcommand};
@@ -13,15 +12,12 @@ use crate::args::{
 };
 use crate::terminal;
 
-/// Version and commit, for as long as the command line needs them.
-static LONG_VERSION: LazyLock<String> = LazyLock::new(jostle_report::version);
-
 /// Simulates neighbouring buildings that hit each other during an earthquake.
 #[derive(Debug, Parser)]
 #[command(
     name = "jostle",
     version,
-    long_version = LONG_VERSION.as_str(),
+    long_version = jostle_report::version(),
     about = "Simulates neighbouring buildings that hit each other during an earthquake",
     after_help = "Quantities carry units: --pga 220cm/s2, --pga 0.35g, --gap 100mm.\n\
                   Exit codes: 0 done, 1 the analysis failed or a set of motions does not meet its code,\n\

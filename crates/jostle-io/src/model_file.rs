@@ -58,6 +58,7 @@ mod steel_profile;
 mod tests;
 mod unusual_results;
 mod wall;
+mod wall_fibres;
 
 pub use capacity::CapacityRequest;
 pub use floor_spectra::FloorSpectraRequest;

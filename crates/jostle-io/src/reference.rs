@@ -64,6 +64,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Also of a frame at a line of a plan.",
     ),
     (
+        Section::FrameBrace,
+        "`[[building.brace]]` of a plane frame, further keys",
+        "",
+    ),
+    (
         Section::GridBay,
         "`[[building.brace]]` and `[[building.infill]]` of a space frame",
         "Without both x and y, they are only in bays within the plan of their floor, where there are joints.",
@@ -104,6 +109,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "For a plane frame, also one at a line of a plan. A wall is a wide column with a rigid cross-section: beams span between faces and rotate with them. See [Walls and coupling beams](how-to/walls.md).",
     ),
     (Section::WallHinge, "`hinge` of a wall", ""),
+    (
+        Section::WallBars,
+        "`bars` of a wall",
+        "Both edges are alike. See [Fibres](how-to/walls.md#fibres).",
+    ),
     (
         Section::CouplingBeam,
         "`[[building.coupling_beam]]`",

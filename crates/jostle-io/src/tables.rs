@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use jostle::history::{MemberHistory, Owner};
 use jostle::hysteresis::{ForceRow, Side};
+use jostle::interface::PlanPart;
 use jostle::linear::sort_by;
 use jostle::quantity::Read;
 use jostle::results::in_plan::ImpactSliding;
@@ -680,7 +681,13 @@ pub fn contact_names(summary: &Summary) -> Vec<String> {
         let pair = gap.between.each_ref().map(|name| plain(name)).join("-");
         for contact in &gap.contacts {
             let place = joint_place("floor", contact.floors, contact.height_m);
-            names.push(format!("{pair}.{place}"));
+            // A slab may strike several columns at one height.
+            let parts = contact.in_plan.iter().flat_map(|plan| plan.parts);
+            let columns = parts.filter_map(|part| match part {
+                PlanPart::Column([x, y]) => Some(format!("_column{}-{}", x + 1, y + 1)),
+                PlanPart::Edge(_) | PlanPart::Corner(_) => None,
+            });
+            names.push(format!("{pair}.{place}{}", columns.collect::<String>()));
         }
     }
     names

@@ -78,14 +78,18 @@ if (embedded) load(JSON.parse(embedded.textContent), null);
 
 /** Displacement history of a building at a height: of a floor, or between floors on a straight line. Floor 0 is its mat. */
 function displacementColumn(table, building, floor, height) {
-  if (floor || floor === 0) return table.columns.get(`u:${building}:${floor}`);
+  const of = (floor) => table.columns.get(`u:${building}:${floor}`);
+  return floor || floor === 0 ? of(floor) : betweenFloors(building, height, of);
+}
+
+/** What floors have, as a list over time, at a height between them, on a straight line. */
+function betweenFloors(building, height, of) {
   const [base, ...floors] = levelsOf(page.buildings[building]);
   const above = floors.findIndex((h) => h >= height - 1e-3);
   if (above < 0) return undefined;
   const below = above > 0 ? floors[above - 1] : base;
   const part = (height - below) / (floors[above] - below);
-  const upper = table.columns.get(`u:${building}:${above + 1}`);
-  const lower = table.columns.get(`u:${building}:${above}`);
+  const [upper, lower] = [of(above + 1), of(above)];
   return upper?.map((u, i) => part * u + (1 - part) * (lower ? lower[i] : 0));
 }
 

@@ -103,8 +103,12 @@ function energyChart() {
 }
 
 /** Displacement of a side of a face or corner in plan along its normal, at its middle. */
-function alongNormal(table, building, { plan, floors }, side) {
-  const floor = floors[side];
+function alongNormal(table, building, { plan, floors, height }, side) {
+  const of = (floor) => alongNormalAt(table, building, plan, floor);
+  return floors[side] === null ? betweenFloors(building, height, of) : of(floors[side]);
+}
+
+function alongNormalAt(table, building, plan, floor) {
   const [u, v, r] = ["u", "v", "r"].map((name) => table.columns.get(`${name}:${building}:${floor}`));
   if (!u || !v || !r) return undefined;
   const { plans, mat } = page.buildings[building];

@@ -395,7 +395,7 @@ class Scene {
     this.drawDiagonals(part, building, i, heights, sway, t);
     this.drawWalls(part, building.walls ?? [], lines, heights, sway);
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
-    this.drawHinges(part, lines, heights, sway, t);
+    this.drawHinges(part, building, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
     const edges = building.tops ? lines.map((_, line) => line) : [0, lines.length - 1];
     const outline = (places) => edges.map((line) => column(lines[line], places, line)).join("") + floor(places);
@@ -420,7 +420,7 @@ class Scene {
     const edge = Math.min(...(building.plans ?? []).flatMap((plan) => plan.corners.map((corner) => corner[0])));
     const xs = (own) => (own.ends ? own.ends.map((end) => this.left[i] + end[0] - edge) : own.lines.map((line) => lines[line]));
     const braces = diagonals.filter((own) => !own.infill);
-    part.braces.setAttribute("d", braces.map((own) => `M${at(xs(own)[0], own.storey - 1)}L${at(xs(own)[1], own.storey)}`).join(""));
+    part.braces.setAttribute("d", braces.map((own) => `M${at(xs(own)[0], own.storey - 1)}L${at(xs(own)[1], own.top ?? own.storey)}`).join(""));
     // Both struts of a panel lie in one bay.
     const panels = diagonals.filter((own) => own.infill && own.lines[0] < own.lines[1]);
     const panel = (own) => {
@@ -431,7 +431,7 @@ class Scene {
     // Struts by what they went through in the whole run.
     part.struts.forEach((path, k) => {
       const struts = this.marked ? diagonals.filter((own) => own.stage === k + 1) : [];
-      path.setAttribute("d", struts.map((own) => `M${at(xs(own)[0], own.storey - 1)}L${at(xs(own)[1], own.storey)}`).join(""));
+      path.setAttribute("d", struts.map((own) => `M${at(xs(own)[0], own.storey - 1)}L${at(xs(own)[1], own.top ?? own.storey)}`).join(""));
     });
   }
 
@@ -448,7 +448,7 @@ class Scene {
   }
 
   /** Marks near the ends of members, off the joint by a little so that all four around it are seen. */
-  drawHinges(part, lines, heights, sway, t) {
+  drawHinges(part, building, lines, heights, sway, t) {
     const size = Math.min(Math.max(this.scale * 0.17, 1.9), 4.2);
     const f = this.exaggeration;
     const outlines = ["", ""];
@@ -484,9 +484,11 @@ class Scene {
       } else if (kind === "d") {
         // Near the middle, so that the marks of two that cross are seen.
         const [share, ends] = [0.42, [line, end]];
+        const own = (building.diagonals ?? []).find((one) => one.storey === level && one.lines[0] === line - 1 && one.lines[1] === end - 1);
+        const levels = [level - 1, own?.top ?? level];
         const along = ([low, high]) => low + share * (high - low);
-        const xs = ends.map((own, k) => this.px(lines[own - 1] + f * sway[level - 1 + k]));
-        const ys = ends.map((_, k) => this.py(heights[level - 1 + k]));
+        const xs = ends.map((at, k) => this.px(lines[at - 1] + f * sway[levels[k]]));
+        const ys = levels.map((at) => this.py(heights[at]));
         mark(hinge, [along(xs), along(ys)]);
       } else if (kind === "f") {
         // Below the ground line: rocking first, sliding beneath it.

@@ -237,6 +237,33 @@ class SpaceScene {
     return floor < 0 ? this.floorNow(building, floor) : state[building][floor];
   }
 
+  /** Displacement of a point of a floor [m]. */
+  displaced(state, building, floor, [x, y]) {
+    const { plans, mat } = this.buildings[building];
+    const [cx, cy] = (floor < 0 ? mat : plans[floor]).centre;
+    const [u, v, r] = this.floorIn(state, building, floor);
+    return [u - r * (y - cy), v + r * (x - cx)];
+  }
+
+  /** The same between floors, on a straight line [m]. */
+  betweenFloors(state, building, level, point) {
+    const { levels, mat } = this.buildings[building];
+    const height = level - (page.buildings[building].elevation ?? 0);
+    const upper = levels.findIndex((floor, i) => i > 0 && floor >= height - 1e-3) - 1;
+    if (upper < 0) return [0, 0];
+    const part = (height - levels[upper]) / (levels[upper + 1] - levels[upper]);
+    const above = this.displaced(state, building, upper, point);
+    const below = upper > 0 || mat ? this.displaced(state, building, upper - 1, point) : [0, 0];
+    return [0, 1].map((axis) => part * above[axis] + (1 - part) * below[axis]);
+  }
+
+  /** A point of a column between floors as drawn. */
+  onColumn(contact, building, [x, y], state) {
+    const [u, v] = this.betweenFloors(state, building, contact.height, [x, y]);
+    const [sx, sy] = this.shifts[building];
+    return [sx + x + this.exaggeration * u, sy + y + this.exaggeration * v, contact.height - (page.buildings[building].elevation ?? 0)];
+  }
+
   /** A point of a floor as drawn, at its height. */
   moved(building, floor, [x, y], [u, v, r]) {
     const { plans, mat, levels } = this.buildings[building];
@@ -401,9 +428,13 @@ class SpaceScene {
     this.places.forEach((contact, index) => {
       const { at, normal, length } = contact.plan;
       const [a, b] = contact.gap.between;
-      const floors = contact.floors.map((floor) => floor - 1);
       const along = [-normal[1], normal[0]];
-      const onSide = (building, side, point) => (building === null ? this.onWall(contact, side, point) : this.moved(building, floors[side], point, this.floorIn(state, building, floors[side])));
+      const onSide = (building, side, point) => {
+        if (building === null) return this.onWall(contact, side, point);
+        const floor = contact.floors[side];
+        if (floor === null) return this.onColumn(contact, building, point, state);
+        return this.moved(building, floor - 1, point, this.floorIn(state, building, floor - 1));
+      };
       const sides = (point) => [onSide(a, 0, point), onSide(b, 1, point)];
       const ends = length > 0 ? [-0.5, 0.5].map((s) => [at[0] + s * length * along[0], at[1] + s * length * along[1]]) : [at];
       for (const side of [0, 1]) {
@@ -472,11 +503,9 @@ class SpaceScene {
     const [own, other] = [a, b].map((building, side) => {
       // Walls stand on the ground.
       if (building === null) return 0;
-      const floor = contact.floors[side] - 1;
-      const [u, v, r] = this.floorIn(state, building, floor);
-      const { plans, mat } = this.buildings[building];
-      const [cx, cy] = (floor < 0 ? mat : plans[floor]).centre;
-      return along[0] * (u - r * (point[1] - cy)) + along[1] * (v + r * (point[0] - cx));
+      const floor = contact.floors[side];
+      const [u, v] = floor === null ? this.betweenFloors(state, building, contact.height, point) : this.displaced(state, building, floor - 1, point);
+      return along[0] * u + along[1] * v;
     });
     return own - other;
   }

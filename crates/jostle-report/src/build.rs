@@ -10,9 +10,9 @@ const COMMIT: &str = env!("JOSTLE_COMMIT");
 
 /// Version and commit, for people.
 #[must_use]
-pub fn version() -> String {
-    match BUILD {
-        Some(commit) => format!("{} ({commit})", env!("CARGO_PKG_VERSION")),
-        None => env!("CARGO_PKG_VERSION").to_owned(),
+pub const fn version() -> &'static str {
+    match COMMIT.is_empty() {
+        true => env!("CARGO_PKG_VERSION"),
+        false => concat!(env!("CARGO_PKG_VERSION"), " (", env!("JOSTLE_COMMIT"), ")"),
     }
 }

@@ -8,6 +8,9 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub(crate) struct DiagonalData {
     pub(crate) storey: usize,
+    /// Floor of its upper end, if that is not the one above its storey.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    top: Option<usize>,
     /// Column lines of its lower and its upper end, from 0; lines that cross its own in a space frame.
     lines: [usize; 2],
     /// Whether it is part of a panel.
@@ -50,6 +53,7 @@ impl DiagonalData {
     pub(crate) fn of(diagonal: &Diagonal) -> Self {
         Self {
             storey: diagonal.place.storey,
+            top: Some(diagonal.place.floors()[1]).filter(|top| *top != diagonal.place.storey),
             lines: diagonal.place.lines(),
             infill: diagonal.place.kind == DiagonalKind::Infill,
             stage: None,

@@ -1,5 +1,6 @@
 //! How the force of a face is spread along it at its largest impact.
 
+use jostle::interface::PlanContactKind;
 use jostle::linear::sort_by;
 use jostle::results::summary::ContactSummary;
 use maud::{Markup, html};
@@ -29,7 +30,9 @@ pub(crate) fn figures(page: &Page) -> Markup {
     });
     let mut faces: Vec<_> = contacts
         .filter(|(.., contact)| {
-            let is_face = contact.in_plan.is_some_and(|plan| plan.overlap_m > 0.0);
+            let is_face = contact
+                .in_plan
+                .is_some_and(|plan| plan.kind == PlanContactKind::Face);
             is_face && contact.peak_force_n > 0.0
         })
         .collect();

@@ -174,6 +174,8 @@ fn moved(page: &Page, face: &Face, side: usize) -> Option<[Vec<f64>; 2]> {
             (building, floor),
             face.plan.plan_m,
         ),
+        // Columns bend between floors, by more than histories know.
+        (Some(building), None) if building < page.model.buildings.len() => None,
         _ => Some([(); 2].map(|()| vec![0.0; page.history.len()])),
     }
 }

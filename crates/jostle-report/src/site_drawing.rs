@@ -377,7 +377,7 @@ fn marks(scale: &Scale, places: &[SitePlace]) -> Markup {
                 (arrow("normal", [x, y], tip))
                 @if let Some(slip) = place.slip.filter(|slip| *slip > 0.0) { (slipped(place, [x, y], slip / longest)) }
                 @match place.kind {
-                    PlanContactKind::Face => {
+                    PlanContactKind::Face | PlanContactKind::Column => {
                         line.face x1=(format!("{x1:.1}")) y1=(format!("{y1:.1}")) x2=(format!("{x2:.1}")) y2=(format!("{y2:.1}")) stroke-width=(format!("{:.1}", 2.0 + 5.0 * share)) {}
                     }
                     PlanContactKind::Corner => {

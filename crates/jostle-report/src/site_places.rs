@@ -82,17 +82,13 @@ impl SitePlace {
                 let (Some(plan), [Some(a), Some(b)]) = (contact.in_plan, model_gap.between) else {
                     continue;
                 };
-                let kind = match plan.overlap_m > 0.0 {
-                    true => PlanContactKind::Face,
-                    false => PlanContactKind::Corner,
-                };
                 add(
                     &mut places,
                     Self {
                         gap_index: index,
                         between: [a, b],
                         floors: vec![contact.floors],
-                        kind,
+                        kind: plan.kind,
                         parts: plan.parts,
                         normal: plan.normal,
                         middle: plan.plan_m,
@@ -177,7 +173,7 @@ pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: Pl
             // The plan of a wall begins behind it; its face is its third edge.
             PlanPart::Edge(2) => message::face().into(),
             PlanPart::Edge(_) => message::side().into(),
-            PlanPart::Corner(_) => message::end().into(),
+            PlanPart::Corner(_) | PlanPart::Column(_) => message::end().into(),
         };
     };
     let plan = match (&building.structure, floor) {
@@ -198,6 +194,7 @@ fn part_in_words(part: PlanPart, corners: usize) -> String {
             let next = if index + 1 == corners { 0 } else { index + 1 };
             message::edge_index_next(index + 1, next + 1)
         }
+        PlanPart::Column([x, y]) => message::column_at_x_y(x + 1, y + 1),
     }
 }
 

@@ -177,7 +177,7 @@ fn faces(page: &Page) -> Markup {
                             @let centre = hardest.and_then(|impact| impact.centre_m);
                             tr {
                                 th scope="row" { (gap.between[0]) " ↔ " (gap.between[1]) }
-                                td { (pair(contact.floors)) } td { (if plan.kind == PlanContactKind::Face.name() { message::face() } else { message::corner() }) }
+                                td { (pair(contact.floors)) } td { (kind_in_words(plan.kind)) }
                                 td.number { (format::in_unit(format::HEIGHT, plan.overlap_m, 2)) } td.number { (format::in_unit(format::LENGTH, contact.width_m, 1)) }
                                 td.number { (format::fixed(plan.normal[0], 3)) ", " (format::fixed(plan.normal[1], 3)) }
                                 td.number { (contact.impact_count) } td.number { (format::significant(format::FORCE.of(contact.peak_force_n), 4)) }
@@ -285,5 +285,13 @@ fn histories(page: &Page) -> Markup {
             (plot(message::roof_displacement_across(), message::displacement_mm(), across).figure())
             (plot(message::roof_rotation(), message::rotation_mrad(), turns).figure())
         }
+    }
+}
+
+fn kind_in_words(kind: PlanContactKind) -> &'static str {
+    match kind {
+        PlanContactKind::Face => message::face(),
+        PlanContactKind::Corner => message::corner(),
+        PlanContactKind::Column => message::column(),
     }
 }

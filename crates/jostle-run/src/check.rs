@@ -11,6 +11,7 @@ use std::fmt::Write;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::{HysteresisRule, Side};
+use jostle::interface::{Contact, PlanContactKind};
 use jostle::judgement::{Stated, structure_yields};
 use jostle::model::{Damping, Structure, Sway, Tiers};
 use jostle::system::BuildingSystem;
@@ -448,13 +449,24 @@ fn describe(
         writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
         let widths: Vec<String> = contacts.iter().map(|contact| mm(contact.width)).collect();
         if system.is_in_space() {
-            writeln!(
-                text,
-                "  gap {}, {} of {} points each",
-                LENGTH.text(gap.width(), 1),
-                counted(faces_among(&contacts), "face"),
-                gap.in_plan.points
-            )?;
+            let on_columns = |contact: &&&Contact| {
+                let plan = contact.plan;
+                plan.is_some_and(|plan| plan.kind == PlanContactKind::Column)
+            };
+            let columns = contacts.iter().filter(on_columns).count();
+            let faces = faces_among(&contacts) - columns;
+            let mut parts = vec![LENGTH.text(gap.width(), 1)];
+            if faces > 0 || columns == 0 {
+                let points = gap.in_plan.points;
+                parts.push(format!(
+                    "{} of {points} points each",
+                    counted(faces, "face")
+                ));
+            }
+            if columns > 0 {
+                parts.push(format!("{} between floors", counted(columns, "column")));
+            }
+            writeln!(text, "  gap {}", parts.join(", "))?;
         } else {
             writeln!(
                 text,
@@ -500,7 +512,7 @@ fn describe(
         // Faces that stand back may never touch.
         let narrowest = contacts.iter().map(|contact| contact.width);
         let narrowest = narrowest.fold(f64::INFINITY, f64::min);
-        let nearest = |contact: &&&jostle::interface::Contact| contact.width <= narrowest;
+        let nearest = |contact: &&&Contact| contact.width <= narrowest;
         if let Some(contact) = contacts.iter().rev().find(nearest) {
             let place = match contacts
                 .last()
@@ -613,8 +625,8 @@ fn parameters(link: &jostle::Link) -> String {
     springs.chain(limits).collect::<Vec<_>>().join(" and ")
 }
 
-/// Number of faces and corners.
-fn faces_among(contacts: &[&jostle::interface::Contact]) -> usize {
+/// Number of faces, corners and columns.
+fn faces_among(contacts: &[&Contact]) -> usize {
     let mut faces: Vec<usize> = contacts
         .iter()
         .filter_map(|contact| Some(contact.plan?.face))

@@ -21,9 +21,9 @@ impl Bar {
 
 /// Some bars of one diameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Group {
-    count: usize,
-    diameter: f64,
+pub(crate) struct Group {
+    pub(crate) count: usize,
+    pub(crate) diameter: f64,
 }
 
 /// Reinforcement as written, before placement in a section.
@@ -50,6 +50,13 @@ pub struct Ties {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct BarsError(String);
+
+impl BarsError {
+    /// In words.
+    pub(crate) fn new(problem: &str) -> Self {
+        Self(problem.to_owned())
+    }
+}
 
 /// How bars are written.
 const EXAMPLE: &str = "write \"12 d20\" for twelve bars of 20 mm around the section, \"8 #6\" for eight of No. 6, or \"4 d25 top, 3 d25 bottom\"";
@@ -251,7 +258,7 @@ fn at_sides(bars: &mut Vec<Bar>, levels: usize, diameter: f64, width: f64, depth
 }
 
 /// Reads `"2 d25 + 2 d20"`.
-fn parse_groups(text: &str) -> Result<Vec<Group>, BarsError> {
+pub(crate) fn parse_groups(text: &str) -> Result<Vec<Group>, BarsError> {
     text.split('+')
         .map(|part| parse_group(part.trim()))
         .collect()

@@ -28,6 +28,7 @@ mod section;
 mod steel;
 mod survey;
 mod tee;
+mod wall;
 
 pub use bars::{Bar, BarsError, Reinforcement, Ties};
 pub use buckling::BucklingCurve;
@@ -45,3 +46,4 @@ pub use section::{Section, SectionFault, Transformed};
 pub use steel::{ASTM_STEEL_GRADES, EN_STEEL_GRADES, STEEL_GRADES, Steel};
 pub use survey::{Analysis, SectionSurvey};
 pub use tee::{FlangeWidth, Slab, Span, Tee};
+pub use wall::{WallReinforcement, WallSection, WebBars};

@@ -120,10 +120,10 @@ pub use model::{
     GroundSprings, HalfSpace, Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint,
     JointRequest, Level, Link, LinkLaw, MassDamping, MemberRequest, Model, ModelFault, PanelAcross,
     PanelDamage, PlanArea, PlanAxis, PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint,
-    PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface,
-    Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall,
-    SpeedFriction, Stop, Structure, StrutLine, Sway, Tier, TierStorey, Tiers, Uplift, Wall,
-    WallHinge,
+    PlanSpring, ProportionalDamping, Reach, Rise, Section, Shear, ShearEnds, ShearSpring,
+    SlidingSurface, Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
+    SpaceWall, SpeedFriction, Stop, Structure, StrutLine, Sway, Tier, TierStorey, Tiers, Uplift,
+    Wall, WallHinge,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -1,6 +1,6 @@
 //! `[[building.brace]]`: diagonals of the bays of a frame or of a grid.
 
-use jostle::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PlanAxis, Rise, StrutLine};
+use jostle::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PlanAxis, Reach, Rise, StrutLine};
 
 use super::buckling::{self, Strut};
 use super::hinges::read_spring;
@@ -18,6 +18,8 @@ pub(super) struct Bays<'a> {
     pub(super) widths: Widths<'a>,
     /// E I in the plane of the bay of the columns on both sides of it \[N·m²\]; `None` where there is none.
     pub(super) column_rigidity: &'a dyn Fn(DiagonalPlace) -> [Option<f64>; 2],
+    /// Whether a floor of a plane frame has a joint at a line from 0; those of floor 0 are feet.
+    pub(super) has_joint: &'a dyn Fn([usize; 2]) -> bool,
     /// Whether a diagonal finds both its joints.
     pub(super) has_joints: &'a dyn Fn(DiagonalPlace) -> bool,
 }
@@ -42,10 +44,25 @@ impl Bays<'_> {
         widths[place.bay - 1]
     }
 
+    /// Length of a diagonal from joint to joint \[m\].
+    pub(super) fn length(&self, place: DiagonalPlace) -> f64 {
+        let [low, high] = place.floors();
+        let along = match self.widths {
+            Widths::OfFrame(widths) => {
+                let crossed = &widths[place.bay - 1..place.bay - 1 + place.reach.bays];
+                crossed.iter().sum()
+            }
+            Widths::OfGrid(_) => self.width(place),
+        };
+        libm::hypot(along, self.heights[low..high].iter().sum())
+    }
+
     /// Keys of a table for some of the bays.
     pub(super) fn sections(&self, kind: DiagonalKind) -> &'static [Section] {
         match (self.widths, kind) {
-            (Widths::OfFrame(_), DiagonalKind::Brace) => &[Section::FrameBay, Section::Brace],
+            (Widths::OfFrame(_), DiagonalKind::Brace) => {
+                &[Section::FrameBay, Section::FrameBrace, Section::Brace]
+            }
             (Widths::OfFrame(_), DiagonalKind::Infill) => &[Section::FrameBay, Section::Infill],
             (Widths::OfGrid(_), DiagonalKind::Brace) => &[Section::GridBay, Section::Brace],
             (Widths::OfGrid(_), DiagonalKind::Infill) => &[Section::GridBay, Section::Infill],
@@ -194,14 +211,21 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
             return None;
         }
     };
-    let mut braces = places(
-        reader,
-        &view,
-        DiagonalKind::Brace,
-        rises,
-        bays,
-        stiffness_of,
-    )?;
+    let between = match bays.widths {
+        Widths::OfFrame(widths) => between(reader, &view, widths.len(), bays)?,
+        Widths::OfGrid(_) => None,
+    };
+    let mut braces = match between {
+        Some(place) => vec![diagonal(place, stiffness_of(place, bays.length(place))?)],
+        None => places(
+            reader,
+            &view,
+            DiagonalKind::Brace,
+            rises,
+            bays,
+            stiffness_of,
+        )?,
+    };
     if let Some(field) = reader.get(&view, "hinge") {
         const SECTIONS: &[Section] = &[Section::LinkHinge, Section::Buckling];
         let hinge = reader.open(&field, SECTIONS)?;
@@ -210,10 +234,9 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
             // A fault of one is that of all.
             let stiffness = brace.stiffness;
             brace.hysteresis = Some(if buckles {
-                let width = bays.width(brace.place);
                 let strut = Strut {
                     stiffness,
-                    length: libm::hypot(width, bays.heights[brace.place.storey - 1]),
+                    length: bays.length(brace.place),
                     profile,
                 };
                 buckling::read(reader, &field, &hinge, strut)?
@@ -223,6 +246,128 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         }
     }
     Some(braces)
+}
+
+/// An elastic one from joint to joint.
+fn diagonal(place: DiagonalPlace, stiffness: f64) -> Diagonal {
+    Diagonal {
+        place,
+        stiffness,
+        hysteresis: None,
+        offsets: [0.0; 2],
+        across: None,
+        damage: None,
+    }
+}
+
+/// The place of a brace by its two joints: `None` after a fault, `Some(None)` where the table names bays instead.
+fn between(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    spans: usize,
+    bays: Bays<'_>,
+) -> Option<Option<DiagonalPlace>> {
+    const ENDS: [&str; 2] = ["from", "to"];
+    if !ENDS.iter().any(|key| view.has(key)) {
+        return Some(None);
+    }
+    for key in ["storeys", "bay", "direction"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "cannot be combined with from and to") =
+                Some(format!("remove {key}, or from and to"));
+            return None;
+        }
+    }
+    let ends = ENDS.map(|key| match reader.get(view, key) {
+        Some(field) => joint(reader, &field, spans, bays),
+        None => {
+            let remedy = "add the other end as FLOOR.LINE, such as \"0.1\"";
+            reader.missing(view, key, remedy);
+            None
+        }
+    });
+    let ([mut low, mut high], field) = ([ends[0]?, ends[1]?], reader.get(view, "to")?);
+    if low[0] > high[0] {
+        (low, high) = (high, low);
+    }
+    if low == high {
+        *reader.bad(&field, "is the joint at which it begins") = Some("name another joint".into());
+        return None;
+    }
+    if low[0] == high[0] {
+        *reader.bad(
+            &field,
+            format!("is at floor {} as well, whose beams join both", low[0]),
+        ) = Some("name a joint of another floor".into());
+        return None;
+    }
+    let (from, to) = (low[1], high[1]);
+    Some(Some(DiagonalPlace {
+        kind: DiagonalKind::Brace,
+        line: None,
+        storey: low[0] + 1,
+        bay: from.min(to) + 1,
+        rise: if from <= to { Rise::Right } else { Rise::Left },
+        reach: Reach {
+            storeys: high[0] - low[0],
+            bays: from.abs_diff(to),
+        },
+        strut: StrutLine::Central,
+    }))
+}
+
+/// A joint by `"FLOOR.LINE"`: its floor, 0 for the ground, and its line from 0.
+fn joint(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    spans: usize,
+    bays: Bays<'_>,
+) -> Option<[usize; 2]> {
+    let text = reader.text(field)?;
+    let floors = bays.heights.len();
+    let numbers = text.split_once('.');
+    let numbers = numbers.and_then(|(floor, line)| {
+        Some([
+            floor.trim().parse().ok()?,
+            line.trim().parse::<usize>().ok()?,
+        ])
+    });
+    let Some([floor, line]) =
+        numbers.filter(|[floor, line]| *floor <= floors && (1..=spans + 1).contains(line))
+    else {
+        *reader.bad(field, format!("\"{text}\" is no joint of the frame")) = Some(format!(
+            "write FLOOR.LINE, such as \"0.1\": floors from 0, the ground, to {floors}, column lines from 1 to {}",
+            spans + 1
+        ));
+        return None;
+    };
+    let at = [floor, line - 1];
+    if (bays.has_joint)(at) {
+        return Some(at);
+    }
+    let Widths::OfFrame(widths) = bays.widths else {
+        return None;
+    };
+    let place = |[floor, line]: [usize; 2]| {
+        let (along, up): (f64, f64) = (
+            widths[..line].iter().sum(),
+            bays.heights[..floor].iter().sum(),
+        );
+        [along, up]
+    };
+    let [x, y] = place(at);
+    let away = |other: &[usize; 2]| {
+        let [a, b] = place(*other);
+        libm::hypot(a - x, b - y)
+    };
+    let all = (0..=floors).flat_map(|floor| (0..=spans).map(move |line| [floor, line]));
+    let joints = all.filter(|other| (bays.has_joint)(*other));
+    let nearest = joints.min_by(|a, b| away(a).total_cmp(&away(b)));
+    *reader.bad(
+        field,
+        format!("\"{text}\" has no joint, as no column ends there"),
+    ) = nearest.map(|[floor, line]| format!("the nearest joint is \"{floor}.{}\"", line + 1));
+    None
 }
 
 /// Diagonals that rise these ways in the bays and storeys that a table names; all if it names none. Without bays of its own, it stands
@@ -248,20 +393,13 @@ pub(super) fn places(
                     storey,
                     bay,
                     rise,
+                    reach: Reach::BAY,
                     strut: StrutLine::Central,
                 };
                 if !names_all && !(bays.has_joints)(place) {
                     continue;
                 }
-                let length = libm::hypot(bays.width(place), bays.heights[storey - 1]);
-                found.push(Diagonal {
-                    place,
-                    stiffness: stiffness(place, length)?,
-                    hysteresis: None,
-                    offsets: [0.0; 2],
-                    across: None,
-                    damage: None,
-                });
+                found.push(diagonal(place, stiffness(place, bays.length(place))?));
             }
         }
     }

@@ -21,18 +21,18 @@ const MOST_IN_SPACE: usize = 100;
 /// Parts over the greater side of a section in space where nothing is said.
 const USUAL_IN_SPACE: usize = 12;
 
-/// Keys that belong to fibres alone.
-pub(super) const KEYS: [&str; 10] = [
-    "length",
+/// Keys of the table of a frame that belong to fibres alone, beside those of their laws.
+const OF_FRAME: [&str; 3] = ["length", "ends", "beam_rule"];
+
+/// Keys of the laws of fibres.
+const LAWS: [&str; 7] = [
     "fibres",
-    "ends",
     "peak_strain",
     "residual",
     "ultimate_strain",
     "hardening",
     "steel",
     "limits",
-    "beam_rule",
 ];
 
 /// Whether a table asks for fibres.
@@ -41,9 +41,19 @@ pub(super) fn asked(reader: &mut Reader<'_>, view: &View<'_>) -> bool {
     rule.is_some_and(|field| field.as_text() == Some("fibre"))
 }
 
-/// Notes keys that have no meaning without fibres.
+/// Notes keys of the table of a frame that have no meaning without fibres.
 pub(super) fn refuse(reader: &mut Reader<'_>, view: &View<'_>) {
-    for key in KEYS {
+    refuse_keys(reader, view, &OF_FRAME);
+    refuse_laws(reader, view);
+}
+
+/// The same of the laws of fibres alone.
+pub(super) fn refuse_laws(reader: &mut Reader<'_>, view: &View<'_>) {
+    refuse_keys(reader, view, &LAWS);
+}
+
+fn refuse_keys(reader: &mut Reader<'_>, view: &View<'_>, keys: &'static [&'static str]) {
+    for key in keys {
         if let Some(field) = reader.get(view, key) {
             *reader.bad(&field, "has no meaning without fibres") =
                 Some(format!("remove {key}, or set rule = \"fibre\""));
@@ -53,11 +63,16 @@ pub(super) fn refuse(reader: &mut Reader<'_>, view: &View<'_>) {
 
 /// How ends of columns are cut into fibres.
 pub(super) struct AskedFibres {
+    laws: FibreLaws,
+    only_base: bool,
+}
+
+/// How a section is cut into fibres, and the laws of these.
+pub(super) struct FibreLaws {
     /// `None`: that of Paulay and Priestley.
     length: Option<f64>,
     /// Parts over the depth, and in space over the width; `None`: as many as usual.
     parts: Option<Parts>,
-    only_base: bool,
     peak_strain: Option<f64>,
     residual: Option<f64>,
     ultimate_strain: Option<f64>,
@@ -76,9 +91,14 @@ enum Parts {
     Each([usize; 2]),
 }
 
-impl AskedFibres {
-    /// Reads how a table asks for fibres; `None` after faults.
-    pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, in_space: bool) -> Option<Self> {
+impl FibreLaws {
+    /// Reads how a table asks for fibres; `None` after faults. `usual`: what its length may follow from.
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        view: &View<'_>,
+        usual: &str,
+        in_space: bool,
+    ) -> Option<Self> {
         let parts = match reader.get(view, "fibres") {
             Some(field) => Some(read_parts(reader, &field, in_space)?),
             None => None,
@@ -87,13 +107,15 @@ impl AskedFibres {
             Some(field) if field.as_text() == Some("paulay-priestley") => None,
             Some(field) => Some(reader.positive(&field, Dimension::Length)?),
             None => {
-                reader.missing(view, "length", "add length = \"paulay-priestley\" (0.08 L + 0.022 d f), or a length such as \"0.4 m\"");
+                reader.missing(
+                    view,
+                    "length",
+                    format!(
+                        "add length = \"paulay-priestley\" ({usual}), or a length such as \"0.4 m\""
+                    ),
+                );
                 return None;
             }
-        };
-        let only_base = match reader.get(view, "ends") {
-            Some(field) => reader.choice(&field, FIBRE_ENDS, &[])? == "base",
-            None => false,
         };
         let mut number =
             |key: &'static str, needs: fn(f64) -> bool, range: &str| match reader.get(view, key) {
@@ -123,13 +145,49 @@ impl AskedFibres {
         Some(Self {
             length,
             parts,
-            only_base,
             peak_strain: peak_strain?,
             residual: residual?,
             ultimate_strain: ultimate_strain?,
             hardening: hardening?,
             loops: loops?,
             limits: limits?,
+        })
+    }
+
+    /// In one plane, with a length \[m\] where none is stated, and so many layers.
+    pub(super) fn options(&self, usual_length: f64, usual_layers: usize) -> FibreOptions {
+        let options = FibreOptions::over(self.length.unwrap_or(usual_length));
+        FibreOptions {
+            layers: match self.parts {
+                Some(Parts::Greater(layers) | Parts::Each([layers, _])) => layers,
+                None => usual_layers,
+            },
+            peak_strain: self.peak_strain,
+            residual: self.residual.unwrap_or(options.residual),
+            ultimate_strain: self.ultimate_strain,
+            hardening: self.hardening,
+            loops: self.loops,
+            ..options
+        }
+    }
+
+    /// Strains at which materials fail that replace those of a section.
+    pub(super) fn limits(&self) -> &BTreeMap<FibreLimit, f64> {
+        &self.limits
+    }
+}
+
+impl AskedFibres {
+    /// Reads how the table of a frame asks for fibres; `None` after faults.
+    pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, in_space: bool) -> Option<Self> {
+        let laws = FibreLaws::read(reader, view, "0.08 L + 0.022 d f", in_space);
+        let only_base = match reader.get(view, "ends") {
+            Some(field) => reader.choice(&field, FIBRE_ENDS, &[])? == "base",
+            None => false,
+        };
+        Some(Self {
+            laws: laws?,
+            only_base,
         })
     }
 
@@ -148,13 +206,11 @@ impl AskedFibres {
         height: f64,
         in_space: bool,
     ) -> Result<ColumnFibres, String> {
-        let length = self
-            .length
-            .unwrap_or_else(|| FibreOptions::hinge_length(0.5 * height, section));
-        let options = FibreOptions::over(length);
-        let (layers, across) = match (self.parts, in_space) {
-            (None, false) => (options.layers, None),
-            (Some(Parts::Greater(count)), false) => (count, None),
+        let laws = &self.laws;
+        let usual = FibreOptions::hinge_length(0.5 * height, section);
+        let options = laws.options(usual, FibreOptions::over(usual).layers);
+        let (layers, across) = match (laws.parts, in_space) {
+            (None | Some(Parts::Greater(_)), false) => (options.layers, None),
             (Some(Parts::Each([layers, across])), _) => (layers, Some(across)),
             (parts, true) => {
                 let count = match parts {
@@ -169,11 +225,6 @@ impl AskedFibres {
         let options = FibreOptions {
             layers,
             across,
-            peak_strain: self.peak_strain,
-            residual: self.residual.unwrap_or(options.residual),
-            ultimate_strain: self.ultimate_strain,
-            hardening: self.hardening,
-            loops: self.loops,
             ..options
         };
         let fibres = section.fibres(&options).map_err(|faults| {
@@ -181,9 +232,9 @@ impl AskedFibres {
             first.map_or_else(String::new, |fault| fault.problem)
         })?;
         let mut limits = section.strain_limits();
-        limits.extend(&self.limits);
+        limits.extend(laws.limits());
         Ok(ColumnFibres {
-            length,
+            length: options.length,
             at_ends: [true, !self.only_base],
             fibres,
             limits,

@@ -5,7 +5,7 @@ use jostle::{Axial, DiagonalPlace, Frame};
 use super::brace::{self, Bays, Widths};
 use super::building::{per_storey, storeys};
 use super::section::{Material, read_modulus};
-use super::{frame_members, frame_walls, infill, joint, rigid_ends};
+use super::{frame_members, frame_walls, infill, joint, reinforced, rigid_ends};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -15,7 +15,7 @@ use crate::tree::Value;
 const MOST_SPANS: usize = 50;
 
 /// Density of reinforced concrete \[kg/m³\].
-const CONCRETE_DENSITY: f64 = 2500.0;
+pub(super) const CONCRETE_DENSITY: f64 = 2500.0;
 
 /// Poisson's ratio of concrete \[–\] (GB 50010-2010, clause 4.1.8).
 const CONCRETE_POISSON_RATIO: f64 = 0.2;
@@ -113,6 +113,7 @@ fn read_members(
         heights: &storey_heights,
         spans: &spans,
         materials,
+        concrete: reinforced::of_building(reader, view),
     };
     let walls = frame_walls::read(reader, view, bays);
     let members = frame_members::read(reader, view, count, &spans, materials, &walls);
@@ -165,6 +166,7 @@ fn read_members(
                 .lines()
                 .map(|line| Some(column(line)?.flexural_rigidity))
         },
+        has_joint: &|[floor, line]| frame.has_joint(floor, line),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);
@@ -186,7 +188,7 @@ fn read_members(
 }
 
 /// Density of the columns \[kg/m³\].
-fn read_density(reader: &mut Reader<'_>, view: &View<'_>, usual: f64) -> f64 {
+pub(super) fn read_density(reader: &mut Reader<'_>, view: &View<'_>, usual: f64) -> f64 {
     let Some(field) = reader.get(view, "density") else {
         return usual;
     };

@@ -1,6 +1,7 @@
 //! `[[building.wall]]` and `[[building.coupling_beam]]`: walls at column lines of a frame, and the beams between them.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
 use jostle::{CouplingBeam, FramePlace, FrameWall, Section as CrossSection, WallHinge};
@@ -9,6 +10,8 @@ use super::brace::tables;
 use super::hinges::read_spring;
 use super::places::range;
 use super::section::{Material, STAND_IN, Sides, own_mass, rectangle, rigidities};
+use super::wall_fibres;
+use crate::grade::ConcreteGrade;
 use crate::keys::{AXIAL, Section, WALL_HINGES, WALL_STIFFNESS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -36,6 +39,8 @@ pub(super) struct Bays<'a> {
     pub(super) spans: &'a [f64],
     /// Of columns and of beams.
     pub(super) materials: [Material; 2],
+    /// Of the building, for walls with bars.
+    pub(super) concrete: Option<ConcreteGrade>,
 }
 
 /// Walls and coupling beams of a frame.
@@ -150,15 +155,35 @@ fn read_wall(
     );
     let [first, last] = storeys.unwrap_or([1, 1]);
     let heights = &bays.heights[first - 1..last];
-    let hinges = reader.get(&view, "hinge").map(|field| {
-        let foot = Foot {
-            rigidity: stand_in.flexural_rigidity,
-            storey: heights[0],
-            height: heights.iter().sum(),
-            length: length.unwrap_or(1.0),
-        };
-        read_hinges(reader, &field, &foot, first, heights)
-    });
+    let foot = Foot {
+        rigidity: stand_in.flexural_rigidity,
+        storey: heights[0],
+        height: heights.iter().sum(),
+        length: length.unwrap_or(1.0),
+    };
+    let hinge = reader.get(&view, "hinge");
+    let (hinges, fibres) = match hinge.filter(|hinge| wall_fibres::asked(reader, hinge)) {
+        Some(field) => {
+            let size = [thickness.and_then(|(_, thickness)| thickness), length];
+            let concrete = bays.concrete;
+            let fibres = wall_fibres::read(
+                reader,
+                &view,
+                &field,
+                size,
+                &foot,
+                (first, heights),
+                concrete,
+            );
+            (Some(Vec::new()), fibres)
+        }
+        None => {
+            wall_fibres::refuse(reader, &view);
+            let hinges = reader.get(&view, "hinge");
+            let hinges = hinges.map(|field| read_hinges(reader, &field, &foot, first, heights));
+            (hinges.unwrap_or(Some(Vec::new())), Some(BTreeMap::new()))
+        }
+    };
     let shear = reader.get(&view, "shear_hinge");
     let shear = shear.map(|field| read_sliding(reader, &field, stand_in, heights[0]));
     let stiffness_factors = stiffness_factors?;
@@ -170,7 +195,8 @@ fn read_wall(
         line: line?,
         storeys: storeys?,
         length: length?,
-        hinges: hinges.unwrap_or(Some(Vec::new()))?,
+        hinges: hinges?,
+        fibres: fibres?,
         shear: match shear {
             Some(shear) => Some(shear?),
             None => None,
@@ -292,11 +318,61 @@ fn reduced(section: CrossSection, [bending, shear]: [f64; 2]) -> CrossSection {
 }
 
 /// A wall that yields: EI, height of the storey of the hinge, its height and its length \[N·m², m\].
-struct Foot {
+pub(super) struct Foot {
     rigidity: f64,
-    storey: f64,
+    pub(super) storey: f64,
     height: f64,
     length: f64,
+}
+
+impl Foot {
+    /// L_p = 0.2 l_w + 0.044 h_e (Paulay and Priestley 1992) \[m\].
+    pub(super) fn hinge_length(&self) -> f64 {
+        0.2 * self.length + 0.044 * EFFECTIVE_HEIGHT * self.height
+    }
+}
+
+/// Floors above which a wall yields, and whether it does so at the heads of their storeys as well. `within`: those at the feet of its
+/// storeys.
+pub(super) fn read_floors(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    within: Range<usize>,
+) -> Option<(Vec<usize>, bool)> {
+    let everywhere = match reader.get(view, "ends") {
+        Some(field) => reader.choice(&field, WALL_HINGES, &[])? == "all",
+        None => false,
+    };
+    let lowest = within.start;
+    let floors = match reader.get(view, "floors") {
+        None if everywhere => within.collect(),
+        None => vec![lowest],
+        Some(stated) if view.has("ends") => {
+            *reader.bad(&stated, "and ends are both given") = Some("leave out one of them".into());
+            return None;
+        }
+        Some(stated) => {
+            let mut floors = Vec::new();
+            for entry in stated.entries().unwrap_or_else(|| vec![stated.clone()]) {
+                let floor = reader.count(&entry)?;
+                if !within.contains(&floor) || floors.contains(&floor) {
+                    *reader.bad(
+                        &entry,
+                        format!(
+                            "must lie between {lowest} and {} and be named once, found {floor}",
+                            within.end - 1
+                        ),
+                    ) = Some(format!(
+                        "floor {lowest} is the foot of the wall, which yields above each floor; ends = \"all\" are both ends of every storey"
+                    ));
+                    return None;
+                }
+                floors.push(floor);
+            }
+            floors
+        }
+    };
+    Some((floors, everywhere))
 }
 
 /// Hinges of a wall: at its foot, above floors that the file names, or at both ends of every storey. `first`: its lowest storey, from 1.
@@ -309,39 +385,7 @@ fn read_hinges(
 ) -> Option<Vec<WallHinge>> {
     let view = reader.reopen(field, &[Section::WallHinge])?;
     let lowest = first - 1;
-    let top = lowest + heights.len();
-    let everywhere = match reader.get(&view, "ends") {
-        Some(field) => reader.choice(&field, WALL_HINGES, &[])? == "all",
-        None => false,
-    };
-    let floors = match reader.get(&view, "floors") {
-        None if everywhere => (lowest..top).collect(),
-        None => vec![lowest],
-        Some(stated) if view.has("ends") => {
-            *reader.bad(&stated, "and ends are both given") = Some("leave out one of them".into());
-            return None;
-        }
-        Some(stated) => {
-            let mut floors = Vec::new();
-            for entry in stated.entries().unwrap_or_else(|| vec![stated.clone()]) {
-                let floor = reader.count(&entry)?;
-                if !(lowest..top).contains(&floor) || floors.contains(&floor) {
-                    *reader.bad(
-                        &entry,
-                        format!(
-                            "must lie between {lowest} and {} and be named once, found {floor}",
-                            top - 1
-                        ),
-                    ) = Some(format!(
-                        "floor {lowest} is the foot of the wall, which yields above each floor; ends = \"all\" are both ends of every storey"
-                    ));
-                    return None;
-                }
-                floors.push(floor);
-            }
-            floors
-        }
-    };
+    let (floors, everywhere) = read_floors(reader, &view, lowest..lowest + heights.len())?;
     for key in ["cracking", "yield"] {
         let stated = reader.get(&view, key);
         let Some(count) = stated
@@ -380,6 +424,17 @@ fn read_hinges(
         }
     }
     Some(hinges)
+}
+
+/// Whether a hinge is no longer than its storey.
+pub(super) fn fits(reader: &mut Reader<'_>, field: &Field<'_>, length: f64, storey: f64) -> bool {
+    if length > storey {
+        *reader.bad(
+            field,
+            format!("{length:.3} m is more than the height of its storey, {storey} m"),
+        ) = Some("give a shorter length".into());
+    }
+    length <= storey
 }
 
 /// The table of hinges with the moments of one level in place of lists.
@@ -425,18 +480,10 @@ fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: &Foot) -> Option
         return read_spring(reader, field, KEYS, initial, Dimension::Moment);
     };
     let length = match stated.as_text() {
-        // L_p = 0.2 l_w + 0.044 h_e (Paulay and Priestley 1992).
-        Some("paulay-priestley") => 0.2 * foot.length + 0.044 * EFFECTIVE_HEIGHT * foot.height,
+        Some("paulay-priestley") => foot.hinge_length(),
         _ => reader.positive(&stated, Dimension::Length)?,
     };
-    if length > foot.storey {
-        *reader.bad(
-            &stated,
-            format!(
-                "{length:.3} m is more than the height of its storey, {} m",
-                foot.storey
-            ),
-        ) = Some("give a shorter length".into());
+    if !fits(reader, &stated, length, foot.storey) {
         return None;
     }
     // As a moment over curvature times that length.

@@ -33,21 +33,16 @@ fn warning(model: &Model, found: &UnmatchedFloors) -> Option<String> {
 
 /// How to bring these floors into contact.
 fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
-    let has_columns = buildings.map(|b| matches!(b.structure, Structure::Frame(_)));
+    let has_columns = buildings.map(Building::has_columns_to_hit);
+    let in_space = matches!(buildings[0].structure, Structure::Tiers(_));
     let listed = "list the pairs that can touch";
     match has_columns {
         [true, true] => {
             format!("Write floors = \"all\" to include them, or {listed} to say that they cannot")
         }
-        [false, false]
-            if buildings
-                .iter()
-                .any(|building| matches!(building.structure, Structure::Tiers(_))) =>
-        {
-            format!(
-                "Columns of buildings with a plan cannot be hit between floors yet: raise level_tolerance if slabs overlap, or {listed} to say that no others can"
-            )
-        }
+        [false, false] if in_space => format!(
+            "Of buildings with a plan only space frames have columns that can be hit between floors: describe them as space frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
+        ),
         [false, false] => format!(
             "Shear buildings and given ones have no columns to hit: describe them as frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
         ),
@@ -58,8 +53,9 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
                 let height = *buildings[shear].floor_levels().get(floor.checked_sub(1)?)?;
                 Some(format!(" as {}", floor_and_height(shear, floor, height)))
             });
+            let kind = if in_space { "space frame" } else { "frame" };
             format!(
-                "Floors of \"{}\" can hit columns of \"{}\": {listed}{}. Describe \"{}\" as a frame to let floors hit its columns too",
+                "Floors of \"{}\" can hit columns of \"{}\": {listed}{}. Describe \"{}\" as a {kind} to let floors hit its columns too",
                 buildings[shear].name,
                 buildings[frame].name,
                 point.unwrap_or_default(),

@@ -10,7 +10,9 @@ use jostle::{
 };
 use jostle_section::capacity::ShearRule;
 use jostle_section::formula::Member;
-use jostle_section::{BarsError, Reinforcement, Section, Steel, StrengthLevel, Ties};
+use jostle_section::{
+    BarsError, Concrete, Reinforcement, Section, SectionFault, Steel, StrengthLevel, Ties,
+};
 
 use super::places::{Layout, sections};
 use crate::grade::ConcreteGrade;
@@ -87,12 +89,15 @@ pub(super) enum Axial {
     Given(f64),
 }
 
+/// The concrete of a building, whose faults are noted where the modulus is read.
+pub(super) fn of_building(reader: &mut Reader<'_>, view: &View<'_>) -> Option<ConcreteGrade> {
+    let field = reader.get(view, "concrete")?;
+    reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES))
+}
+
 /// Reads the reinforcement of all members of a frame; faults are noted.
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> Reinforced {
-    // Faults are noted where the modulus is read.
-    let concrete = reader
-        .get(view, "concrete")
-        .and_then(|field| reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES)));
+    let concrete = of_building(reader, view);
     let storeys = frame.storey_heights.len();
     let mut of = |member: Member| {
         let across = match member {
@@ -175,6 +180,9 @@ pub(super) struct ReadSection {
     home_rule: Option<ShearRule>,
 }
 
+/// Concrete and steel of a section, the cover of its bars, and its ties.
+pub(super) type Materials = (Concrete, Steel, f64, Option<Ties>);
+
 /// Reads bars and materials of a table; `None` without bars, or after faults. `size`: width and depth, whose faults are noted elsewhere.
 pub(super) fn read_section(
     reader: &mut Reader<'_>,
@@ -182,6 +190,27 @@ pub(super) fn read_section(
     size: impl FnOnce(&mut Reader<'_>) -> [Option<f64>; 2],
     of_building: Option<ConcreteGrade>,
 ) -> Option<ReadSection> {
+    let lay = |bars: Reinforcement, [width, depth]: [f64; 2], materials: Materials| {
+        let (concrete, steel, cover, ties) = materials;
+        Section::new(width, depth, concrete, steel, &bars, cover, ties)
+    };
+    let (section, level, home_rule) = read_laid(reader, view, size, of_building, read_bars, lay)?;
+    Some(ReadSection {
+        section,
+        level,
+        home_rule,
+    })
+}
+
+/// The same of a section that is laid in another way.
+pub(super) fn read_laid<B, S>(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    size: impl FnOnce(&mut Reader<'_>) -> [Option<f64>; 2],
+    of_building: Option<ConcreteGrade>,
+    read_bars: impl FnOnce(&mut Reader<'_>, &Field<'_>) -> Option<B>,
+    lay: impl FnOnce(B, [f64; 2], Materials) -> Result<S, Vec<SectionFault>>,
+) -> Option<(S, StrengthLevel, Option<ShearRule>)> {
     let level = match reader.get(view, "strength") {
         Some(field) => StrengthLevel::named(reader.choice(&field, STRENGTHS, &[])?)?,
         None => StrengthLevel::default(),
@@ -247,13 +276,9 @@ pub(super) fn read_section(
         Some(ties) => Some(ties?),
         None => None,
     };
-    let laid = Section::new(width?, depth?, concrete?, steel??, &bars?, cover?, ties);
+    let laid = lay(bars?, [width?, depth?], (concrete?, steel??, cover?, ties));
     match laid {
-        Ok(section) => Some(ReadSection {
-            section,
-            level,
-            home_rule,
-        }),
+        Ok(section) => Some((section, level, home_rule)),
         Err(faults) => {
             for fault in faults {
                 let field = view.has(fault.field).then(|| reader.get(view, fault.field));
@@ -265,7 +290,7 @@ pub(super) fn read_section(
     }
 }
 
-fn read_bars(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Reinforcement> {
+pub(super) fn read_bars(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Reinforcement> {
     if !matches!(field.node.value, Value::Table(_)) {
         let text = reader.text(field)?;
         return understood(reader, field, Reinforcement::parse(&text));
@@ -287,7 +312,7 @@ fn read_bars(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Reinforcement
     understood(reader, field, laid)
 }
 
-fn understood<T>(
+pub(super) fn understood<T>(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     parsed: Result<T, BarsError>,

@@ -10,7 +10,9 @@ use jostle_section::Span;
 
 use super::brace::{self, Bays, Widths};
 use super::building::per_storey;
-use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
+use super::frame::{
+    CONCRETE_DENSITY, flexible_members, read_density, read_poisson_ratio, stiffness_factors,
+};
 use super::places::{range, read_omit};
 use super::plan::pair;
 use super::reinforced::{self, ReadSection};
@@ -108,6 +110,8 @@ pub(super) struct Material {
     pub(super) modulus_is_stated: bool,
     /// Whether a fault of the modulus was noted.
     pub(super) modulus_is_bad: bool,
+    /// Density of columns \[kg/m³\].
+    pub(super) density: f64,
     pub(super) poisson_ratio: f64,
     /// Factor on EI, and on GJ.
     pub(super) factors: [f64; 2],
@@ -170,6 +174,7 @@ pub(super) fn read(
         .get(view, "torsion_factor")
         .and_then(|field| reader.positive(&field, Dimension::Dimensionless));
     let poisson_ratio = read_poisson_ratio(reader, view);
+    let density = read_density(reader, view, CONCRETE_DENSITY);
     let stretches = reader
         .get(view, "axial")
         .is_none_or(|field| reader.choice(&field, AXIAL, &[]) != Some("rigid"));
@@ -184,6 +189,7 @@ pub(super) fn read(
             modulus,
             modulus_is_stated: view.has("elastic_modulus"),
             modulus_is_bad,
+            density,
             poisson_ratio,
             factors: [
                 if is_column {
@@ -328,6 +334,7 @@ fn add_diagonals(
         heights: storey_heights,
         widths: Widths::OfGrid(&widths),
         column_rigidity: &column_rigidity,
+        has_joint: &|_| false,
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);
@@ -616,6 +623,9 @@ fn read_section(
         .flexural_rigidity
         .map(|flexural_rigidity| bending * flexural_rigidity);
     section.torsional_rigidity *= torsion;
+    if sort == Sort::Column {
+        section.line_mass = material.density * section.size[0] * section.size[1];
+    }
     // Columns have no such key.
     let slab = (sort != Sort::Column && view.has("slab")).then(|| reader.get(view, "slab"));
     let slab = match slab.flatten() {

@@ -186,6 +186,7 @@ fn read<'n>(
         .shear_rigidity
         .map(|both| both.map(|share| shear * share));
     section.torsional_rigidity *= torsion;
+    section.line_mass = material.density * length * thickness;
     let member = Member {
         section,
         slab: None,

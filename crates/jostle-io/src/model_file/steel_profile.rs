@@ -71,6 +71,7 @@ pub(super) fn read_in_space(
         torsional_rigidity: shear_modulus * profile.torsion_constant(),
         axial_rigidity: Some(modulus * profile.area()),
         shear_rigidity: shears.then(|| axes.map(|axis| shear_modulus * profile.shear_area(axis))),
+        line_mass: STEEL_DENSITY * profile.area(),
     })
 }
 

@@ -1,7 +1,7 @@
 //! Braces and infill panels of frames.
 
 use jostle::hysteresis::Side;
-use jostle::{DiagonalKind, Rise, Structure};
+use jostle::{DiagonalKind, Reach, Rise, Structure};
 use jostle_testkit::files::{refusal, sound};
 
 const FRAME: &str = r#"
@@ -466,4 +466,96 @@ fn panels_are_damaged_by_drift() {
         let text = refusal(&format!("{FRAME}{PANEL}{more}\n"));
         assert!(text.contains(wanted), "{wanted} in {text}");
     }
+}
+
+/// Between any two joints: from below, whichever is named first, with EA over the length between them.
+#[test]
+fn a_brace_joins_two_joints_by_name() {
+    let found = |ends: &str| diagonals(&format!("[[building.brace]]\n{ends}EA = \"500 MN\"\n"))[0];
+    for (ends, floors, lines, rise, length, name) in [
+        (
+            "from = \"0.1\"\nto = \"3.3\"\n",
+            [0, 3],
+            [0, 2],
+            Rise::Right,
+            8.0_f64.hypot(9.0),
+            "brace.0.1.to.3.3",
+        ),
+        (
+            "from = \"3.1\"\nto = \"1.3\"\n",
+            [1, 3],
+            [2, 0],
+            Rise::Left,
+            8.0_f64.hypot(6.0),
+            "brace.1.3.to.3.1",
+        ),
+        (
+            "from = \"1.2\"\nto = \"0.1\"\n",
+            [0, 1],
+            [0, 1],
+            Rise::Right,
+            5.0,
+            "brace.1.1.up",
+        ),
+    ] {
+        let brace = found(ends);
+        assert_eq!((brace.place.floors(), brace.place.lines()), (floors, lines));
+        assert_eq!(
+            (brace.place.rise, brace.place.to_string().as_str()),
+            (rise, name)
+        );
+        assert!((brace.stiffness / (500e6 / length) - 1.0).abs() < 1e-12);
+    }
+    assert_eq!(
+        found("from = \"1.2\"\nto = \"0.1\"\n").place.reach,
+        Reach::BAY
+    );
+    let tables = |more: &str| {
+        refusal(&format!(
+            "{FRAME}[[building.brace]]\nEA = \"500 MN\"\n{more}"
+        ))
+    };
+    for (more, problem) in [
+        (
+            "from = \"0.1\"\nto = \"0.1\"\n",
+            "to: is the joint at which it begins",
+        ),
+        (
+            "from = \"2.1\"\nto = \"2.3\"\n",
+            "to: is at floor 2 as well",
+        ),
+        ("from = \"0.1\"\n", "to: is missing"),
+        (
+            "from = \"0.1\"\nto = \"4.1\"\n",
+            "\"4.1\" is no joint of the frame",
+        ),
+        ("from = \"0.1\"\nto = \"1.0\"\n", "column lines from 1 to 3"),
+        ("from = \"0.1\"\nto = \"roof\"\n", "write FLOOR.LINE"),
+        (
+            "from = \"0.1\"\nto = \"2.2\"\nbay = 1\n",
+            "bay: cannot be combined with from and to",
+        ),
+        (
+            "from = \"0.1\"\nto = \"2.2\"\n[[building.brace]]\nfrom = \"2.2\"\nto = \"0.1\"\nEA = \"9 MN\"\n",
+            "gives brace.0.1.to.2.2 a second time",
+        ),
+    ] {
+        let said = tables(more);
+        assert!(said.contains(problem), "{problem}: {said}");
+    }
+    let rigid = FRAME.replace("spans = ", "axial = \"rigid\"\nspans = ");
+    let said = refusal(&format!(
+        "{rigid}[[building.brace]]\nEA = \"500 MN\"\nfrom = \"0.1\"\nto = \"2.1\"\n"
+    ));
+    assert!(
+        said.contains("beside columns that keep their length"),
+        "{said}"
+    );
+    // A line that ends below: the nearest joint is named.
+    let set_back = format!(
+        "{}[[building.column]]\nwidth = 0.4\ndepth = 0.4\n[[building.column]]\nline = 3\nstoreys = [2, 3]\nomit = true\n[[building.brace]]\nfrom = \"0.1\"\nto = \"3.3\"\nEA = \"500 MN\"\n",
+        FRAME.replace("column = { width = 0.4, depth = 0.4 }\n", "")
+    );
+    let said = refusal(&set_back);
+    assert!(said.contains("the nearest joint is \"3.2\""), "{said}");
 }

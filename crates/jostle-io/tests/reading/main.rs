@@ -39,3 +39,4 @@ mod space_frames;
 mod study_files;
 mod tables;
 mod usual_ranges;
+mod wall_fibres;

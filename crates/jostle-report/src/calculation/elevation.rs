@@ -276,8 +276,8 @@ fn drawing(
                     rect.shear-wall x=(round(x(axis - 0.5 * wall.length))) y=(round(up)) width=(round(scale * wall.length)) height=(round(down - up)) {}
                 }
                 @for own in &frame.diagonals {
-                    @let ([from, to], storey) = (own.place.lines(), own.place.storey);
-                    @let ends = [(outline.lines[from], storey - 1), (outline.lines[to], storey)].map(|(line, level)| {
+                    @let ([from, to], [low, high]) = (own.place.lines(), own.place.floors());
+                    @let ends = [(outline.lines[from], low), (outline.lines[to], high)].map(|(line, level)| {
                         let height = level.checked_sub(1).map_or(outline.foot, |floor| outline.floors[floor]);
                         [x(line), y(height)]
                     });

@@ -532,7 +532,7 @@ messages! {
     peak_force_title = "Peak force";
     together_force(place, force) = "{place}; all floors together {force}";
     with_force_range(place, least, most) = "{place}; {least} to {most} with other contact stiffness and restitution";
-    numerical_error_alone = "This is the numerical error alone. Contact stiffness and the choice of records usually matter more: --sensitivity shows the first, several records the second.";
+    numerical_error_alone = "Contact stiffness and the choice of records usually matter more: add --sensitivity, and run several records.";
     first_at(instant) = "first at {instant}";
     none = "none";
     peak_closing_title(pair) = "Peak closing{pair}";
@@ -795,6 +795,7 @@ messages! {
     end = "end";
     corner_index(index) = "corner {index}";
     edge_index_next(index, next) = "edge {index}–{next}";
+    column_at_x_y(x, y) = "column {x}.{y}";
 
     // site_plan
     seen_from_above = "Seen from above";
@@ -1181,8 +1182,8 @@ messages! {
     no_connection_to_jostle = "No connection to jostle. If it has ended, start it again. Reconnecting …";
 
     // fibres
-    columns_that_follow_their_axial_force = "Columns whose strength follows the axial force";
-    ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} column ends, and concrete passed its peak strength at {crushed}.";
+    columns_that_follow_their_axial_force = "Columns and walls whose strength follows the axial force";
+    ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} member ends, and concrete passed its peak strength at {crushed}.";
     compression = "compression";
     least_to_greatest(least, greatest) = "{least} to {greatest}";
     moment_across = "moment across";

@@ -97,8 +97,18 @@ pub(super) fn walls(frame: &Frame) -> String {
     for (index, wall) in frame.walls.iter().enumerate() {
         let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
         let at_foot = |hinge: &jostle::WallHinge| hinge.storey == wall.storeys[0] && !hinge.at_head;
+        let ends = wall.fibres.values();
+        let ends = ends.map(|of_storey| of_storey.at_ends.iter().filter(|stands| **stands).count());
+        let first = wall.fibres.first_key_value();
         let bends = match &wall.hinges[..] {
-            [] => String::new(),
+            [] => first.map_or_else(String::new, |(_, own)| {
+                format!(
+                    "by {} fibres over {} at {}",
+                    own.fibres.len(),
+                    HEIGHT.text(own.length, 3),
+                    counted(ends.sum(), "storey end")
+                )
+            }),
             [hinge] if at_foot(hinge) => "at its foot".to_owned(),
             all => format!("at {} storey ends", all.len()),
         };

@@ -16,7 +16,7 @@ const DURATION_OF_FRAMES: f64 = 1.2;
 
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
-    let models = (1..=24).map(|number| {
+    let models = (1..=25).map(|number| {
         let mut random = random(1, number);
         let (kind, tree): (&str, Value) = match number {
             1..=4 => ("beside", beside(&mut random)),
@@ -28,7 +28,8 @@ pub(super) fn models() -> Vec<Pinned> {
             19 | 20 => ("frames", frames(&mut random, number == 20)),
             21 | 22 => ("space-frame", space_frames(&mut random, number == 22)),
             23 => ("around-a-corner", around_a_corner(&mut random)),
-            _ => ("upper-storeys", upper_storeys(&mut random)),
+            24 => ("upper-storeys", upper_storeys(&mut random)),
+            _ => ("struck-columns", struck_columns(&mut random)),
         };
         let solvers: &[Solver] = match number {
             16..=18 | 20 | 22 => &[Solver::Riccati, Solver::Stiffness],
@@ -191,6 +192,14 @@ fn space_frames(random: &mut Random, yields: bool) -> Value {
     gap["friction"] = json!(0.3);
     let mut tree = whole(random, DURATION_OF_FRAMES, &[office, right], &[gap]);
     tree["output"] = json!({"members": ["A.column.1.1.1", "A.column.2.2.2"]});
+    tree
+}
+
+/// The same with floors beside them at other heights.
+fn struck_columns(random: &mut Random) -> Value {
+    let mut tree = space_frames(random, false);
+    tree["building"][1]["storey_height"] = json!(2.2);
+    tree["gap"][0]["floors"] = json!([["2.2 m", 1], ["4.4 m", 2]]);
     tree
 }
 

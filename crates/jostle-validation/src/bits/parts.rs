@@ -150,11 +150,37 @@ gravity = true
 hinges = { rule = "fibre", length = "0.3 m", fibres = [6, 6], ends = "base" }
 "#;
 
+const FIBRED_WALL: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "W"
+storeys = 3
+storey_height = "3 m"
+spans = ["5 m", "4 m"]
+concrete = "C30"
+floor_mass = "60 t"
+gravity = true
+wall = [{ line = 2, length = "2 m", thickness = "200 mm", steel = "HRB400", bars = { edges = "6 d16", edge_length = "400 mm", web = "8 d10" }, ties = "d8 @ 100 mm", hinge = { rule = "fibre", length = "0.8 m", fibres = 12 } }]
+brace = [{ from = "1.1", to = "3.3", EA = "300 MN", hinge = { rule = "bilinear", yield = "150 kN", post_yield = 0.02 } }]
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["W", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
     let all = [
         ("walls", WALLED),
         ("fibres", FIBRED),
+        ("wall of fibres", FIBRED_WALL),
         ("lifting", LIFTING),
         ("fibres in space", FIBRED_IN_SPACE),
         ("panels", PANELLED),

@@ -1,7 +1,7 @@
 //! Columns and beams of a frame that do not stand together.
 
 use super::Faults;
-use crate::model::{Diagonal, DiagonalPlace, Frame};
+use crate::model::{Diagonal, DiagonalKind, DiagonalPlace, Frame, Reach};
 
 /// Members and joints that a frame lacks, as faults at `path`. Lengths of lists are right.
 pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
@@ -89,35 +89,61 @@ pub(super) fn fault_of_offsets(frame: &Frame, diagonal: &Diagonal) -> Option<Str
         let rigid = frame.rigid_ends_of_column([storey, line])[end];
         (diagonal.offsets[end], rigid, line + 1)
     });
-    ends.into_iter().find_map(|(offset, rigid, line)| {
-        if !(0.0..=0.25 * height).contains(&offset) {
+    let limits = OffsetLimits {
+        place: diagonal.place,
+        storey_height: height,
+    };
+    ends.into_iter()
+        .find_map(|(offset, rigid, line)| limits.fault(&format!("column {line}"), offset, rigid))
+}
+
+/// How far from joints a diagonal may meet columns.
+pub(super) struct OffsetLimits {
+    pub(super) place: DiagonalPlace,
+    pub(super) storey_height: f64,
+}
+
+impl OffsetLimits {
+    /// What is wrong with an offset at a column that is rigid so far from the joint.
+    pub(super) fn fault(&self, column: &str, offset: f64, rigid: f64) -> Option<String> {
+        let most = 0.25 * self.storey_height;
+        if !(0.0..=most).contains(&offset) {
             return Some(format!(
-                "{} meets column {line} {offset} m from the joint; give 0 to a quarter of the storey, {} m",
-                diagonal.place,
-                0.25 * height
+                "{} meets {column} {offset} m from the joint; give 0 to a quarter of the storey, {most} m",
+                self.place
             ));
         }
         (offset > 0.0 && offset <= rigid).then(|| {
             format!(
-                "{} meets column {line} {offset} m from the joint, where it is rigid over {rigid} m; give a greater offset, or shorter rigid_ends",
-                diagonal.place
+                "{} meets {column} {offset} m from the joint, where it is rigid over {rigid} m; give a greater offset, or shorter rigid_ends",
+                self.place
             )
         })
-    })
+    }
 }
 
 /// What is wrong with the place of a diagonal: it is not in the frame, or ends where there is no joint.
 pub(super) fn fault_of_diagonal(frame: &Frame, place: DiagonalPlace) -> Option<String> {
     let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
-    let exists = (1..=storeys).contains(&place.storey) && (1..=bays).contains(&place.bay);
-    if !exists || place.line.is_some() {
+    let crosses =
+        place.reach == Reach::BAY || (place.kind == DiagonalKind::Brace && place.reach.storeys > 0);
+    let exists = place.storey > 0
+        && place.bay > 0
+        && place.floors()[1] <= storeys
+        && place.bay + place.reach.bays <= bays + 1;
+    if !exists || !crosses || place.line.is_some() {
         return Some(format!(
             "{place} is not in a frame of {storeys} storeys and {bays} bays, counted from 1"
         ));
     }
     let [lower, upper] = place.lines();
-    let ends = [(place.storey - 1, lower), (place.storey, upper)];
-    let mut loose = ends.into_iter();
+    let [low, high] = place.floors();
+    if lower == upper && !frame.axial.columns_flexible {
+        return Some(format!(
+            "{place} stands beside columns that keep their length, so that it bears nothing; add axial = \"flexible\" to the building, or leave it out"
+        ));
+    }
+    let mut loose = [(low, lower), (high, upper)].into_iter();
     let (floor, line) = loose.find(|(floor, line)| !frame.has_joint(*floor, *line))?;
     Some(format!(
         "{place} ends at floor {floor} of line {}, where there is no joint; leave it out there, or add the column",

@@ -1,7 +1,7 @@
 //! Walls and rigid zones of a frame that do not fit it, and beams between walls.
 
-use super::{Faults, each};
-use crate::model::Frame;
+use super::{Faults, each, fibres};
+use crate::model::{Frame, FrameWall, WallHinge};
 
 /// Faults of walls and coupling beams. Lengths of lists are right.
 pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
@@ -32,6 +32,7 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
                 hinge.storey
             ));
         }
+        check_fibres_of(faults, &format!("{field}.hinge"), frame, wall);
         let shared = frame.walls[..index].iter().position(|other| {
             other.line == line && other.storeys[0] <= last && first <= other.storeys[1]
         });
@@ -85,11 +86,16 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
         }
     }
     for diagonal in &frame.diagonals {
-        let walls = diagonal.place.lines().map(|line| {
-            let storey = diagonal.place.storey.checked_sub(1)?;
-            frame.wall([storey, line])
-        });
-        if let Some(wall) = walls.into_iter().flatten().next() {
+        if diagonal.place.storey == 0 {
+            continue;
+        }
+        // In the storeys within its ends, and where it crosses one bay at least.
+        let ([low, high], lines) = (diagonal.place.floors(), diagonal.place.lines());
+        let ends = [(low, lines[0]), (high.saturating_sub(1), lines[1])];
+        let mut walls = ends
+            .into_iter()
+            .filter_map(|place| frame.wall(place.into()));
+        if let Some(wall) = walls.next() {
             let kind = diagonal.place.kind.name();
             faults.add(format!("{path}.{kind}"), format!(
                 "{} meets the wall at line {}, beside which braces and panels are not modelled; leave it out there",
@@ -97,6 +103,30 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
             ));
         }
     }
+}
+
+/// Faults of the fibres of a wall.
+fn check_fibres_of(faults: &mut Faults, field: &str, frame: &Frame, wall: &FrameWall) {
+    for (storey, of_storey) in &wall.fibres {
+        let [first, last] = wall.storeys;
+        faults.require((first..=last).contains(storey), field, || {
+            format!("has fibres in storey {storey}, where the wall does not stand; it has storeys {first} to {last}")
+        });
+        let both = |hinge: &&WallHinge| {
+            hinge.storey == *storey && of_storey.at_ends[usize::from(hinge.at_head)]
+        };
+        faults.require(!wall.hinges.iter().any(|hinge| both(&hinge)), field, || {
+            format!("has fibres and a moment hinge at one end of storey {storey}; keep one of them")
+        });
+        fibres::check_fibres(faults, field, of_storey, false);
+    }
+    faults.require(
+        wall.fibres.is_empty() || frame.axial.columns_flexible,
+        field,
+        || {
+            "needs a wall that changes its length: without it its axial force is not known; add axial = \"flexible\" to the building, or leave axial out".into()
+        },
+    );
 }
 
 /// Whether a wall stands below or above a floor at a line, both counted from 0.

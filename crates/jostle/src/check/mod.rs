@@ -154,6 +154,13 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             fibres::check_weight(faults, &format!("{path}.hinges"), building);
         }
     }
+    if let Structure::Frame(frame) = &building.structure {
+        for (field, wall) in each(&frame.walls, &format!("{path}.wall")) {
+            if !wall.fibres.is_empty() {
+                fibres::check_weight(faults, &format!("{field}.hinge"), building);
+            }
+        }
+    }
     match &building.damping {
         Damping::Ratio { ratio, modes, sway } => {
             let field = format!("{path}.damping");

@@ -186,6 +186,29 @@ fn check_link(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
             link.level_tolerance,
             model,
         );
+        check_ends_at_floors(faults, path, link, model);
+    }
+}
+
+/// In space links end at floors.
+fn check_ends_at_floors(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
+    if !model.is_in_space() {
+        return;
+    }
+    let sides = model.neighbours(link.between);
+    let pairs = point_pairs(&link.floors, sides, link.level_tolerance).unwrap_or_default();
+    for (pair, side) in pairs.iter().flat_map(|pair| [(pair, 0), (pair, 1)]) {
+        let (Some(building), Some(height)) = (sides[side], pair[side]) else {
+            continue;
+        };
+        let base = Some(building.base.elevation).filter(|_| building.base.isolation.is_some());
+        let mut floors = building.floor_levels().into_iter().chain(base);
+        faults.require(floors.any(|floor| floor == height), format!("{path}.floors"), || {
+            format!(
+                "ends on a column of \"{}\" at {height:.3} m, between its floors: links between buildings with a plan end at floors; name one, or raise level_tolerance",
+                building.name
+            )
+        });
     }
 }
 

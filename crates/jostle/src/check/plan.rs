@@ -2,8 +2,8 @@
 
 use super::{Faults, each, given, plan_frames, space_frame};
 use crate::contact::LawKind;
-use crate::interface::faces_of_gap;
 use crate::interface::plan_contacts::MOST_POINTS;
+use crate::interface::{columns_not_met, faces_of_gap};
 use crate::model::{Base, Building, Gap, Link, Model, PlanArea, PlanPoint, Structure, Tiers, Wall};
 
 /// Whether all buildings have plans, or none has.
@@ -465,10 +465,39 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
             None => &model.walls[side - last].name,
         });
         format!(
-            "of {} m finds no edges of \"{a}\" and \"{b}\" that face each other at a common floor; check at and plan, or raise reach",
+            "of {} m finds no edges of \"{a}\" and \"{b}\" that face each other at a common floor, nor columns before an edge; check at and plan, or raise reach",
             contact.reach
         )
     });
+    for (entry, both) in columns_not_met(model, gap) {
+        let problem = match both {
+            true => "lies between floors on both sides; name a floor on one of them".to_owned(),
+            false => format!(
+                "lies between floors, where no column stands within the common width of both buildings and reach = {} m; leave the point out, or check at, plan and reach",
+                contact.reach
+            ),
+        };
+        faults.add(format!("{path}.floors[{entry}]"), problem);
+    }
+    for side in between.into_iter().filter(|side| *side < last) {
+        check_struck(faults, path, model, side);
+    }
+}
+
+/// Whether floors have more mass than columns take from them that a gap lets be struck between floors.
+fn check_struck(faults: &mut Faults, path: &str, model: &Model, building: usize) {
+    let building_model = &model.buildings[building];
+    let Structure::Tiers(tiers) = &building_model.structure else {
+        return;
+    };
+    if model.is_struck_between_floors(building)
+        && let Some(problem) = space_frame::fault_of_column_masses(tiers)
+    {
+        faults.add(
+            format!("{path}.floors"),
+            format!("hits columns of \"{}\", {problem}", building_model.name),
+        );
+    }
 }
 
 /// Whether a floor of the building lies inside of the wall of a gap, if it has one.

@@ -1,6 +1,6 @@
 //! Faults of plane frames at lines of a plan.
 
-use super::{Faults, check_base, check_frame_hinges, check_members_of};
+use super::{Faults, check_base, check_frame_hinges, check_members_of, each};
 use crate::model::{Building, PlanFrame, SharedColumn, TierStorey, Tiers};
 
 /// Storey heights of a frame and of its building may differ by rounding only \[m\].
@@ -78,6 +78,11 @@ fn check_one(faults: &mut Faults, at: &str, plan_frame: &PlanFrame, tiers: &Tier
     faults.require(!yields, format!("{at}.base"), || {
         "cannot yield under a frame in a plan yet; leave its hinges out".into()
     });
+    for (field, wall) in each(&frame.walls, &format!("{at}.wall")) {
+        faults.require(wall.fibres.is_empty(), format!("{field}.hinge"), || {
+            "cannot have fibres in a frame in a plan yet; take another rule with its moments, or a frame without a plan".into()
+        });
+    }
     faults.require(!plan_frame.base.uplift, format!("{at}.base.uplift"), || {
         "is not possible under a frame in a plan yet; leave it out".into()
     });

@@ -2,8 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use super::frame_places::OffsetLimits;
 use super::{Faults, check_diagonals, check_floor_loads, fibres};
-use crate::model::{Building, ColumnFibres, DiagonalPlace, SpaceFrame, SpacePlace, Tiers};
+use crate::model::{
+    Building, ColumnFibres, Diagonal, DiagonalPlace, SpaceFrame, SpacePlace, Tiers,
+};
 
 /// Least distance of two lines \[m\].
 const APART: f64 = 0.01;
@@ -97,16 +100,17 @@ pub(super) fn check_space_frame(
     }
     check_places(faults, path, frame, tiers.floors.len());
     check_diagonals(faults, path, &frame.diagonals, |diagonal| {
-        let between_floors = || {
-            (diagonal.offsets != [0.0; 2]).then(|| {
-                format!(
-                    "{} meets a column between floors, which columns of space frames do not support yet; leave offset and struts out, or model the frame as a plane frame",
-                    diagonal.place
-                )
-            })
-        };
-        fault_of_diagonal(frame, tiers.floors.len(), diagonal.place).or_else(between_floors)
+        fault_of_diagonal(frame, tiers.floors.len(), diagonal.place)
+            .or_else(|| fault_of_offsets(frame, &tiers.storey_heights, diagonal))
     });
+    if frame.ends_of_struts(&tiers.storey_heights).next().is_some()
+        && let Some(problem) = fault_of_column_masses(tiers)
+    {
+        faults.add(
+            format!("{path}.infill.offset"),
+            format!("lets struts meet columns between floors, {problem}"),
+        );
+    }
     if faults.0.len() == before {
         check_standing(faults, path, frame, tiers.floors.len());
         check_rigid_zones(faults, path, frame, &tiers.storey_heights);
@@ -135,6 +139,63 @@ fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) ->
         "{place} ends at x = {}, y = {} of floor {floor}, where there is no joint; leave it out there, or add the column",
         x + 1,
         y + 1
+    ))
+}
+
+/// What is wrong with where the ends of a diagonal, whose place is sound, meet the columns.
+fn fault_of_offsets(frame: &SpaceFrame, heights: &[f64], diagonal: &Diagonal) -> Option<String> {
+    let crossings = diagonal.place.crossings()?;
+    let storey = diagonal.place.storey - 1;
+    let ends = [0, 1].map(|end| {
+        let line = crossings[end];
+        let column = SpacePlace::Column { line, storey };
+        let mut members = frame.members.iter();
+        let stands = members.any(|member| member.place == column);
+        let rigid = frame.rigid_ends(column)[end];
+        (diagonal.offsets[end], stands.then_some(rigid), column)
+    });
+    let limits = OffsetLimits {
+        place: diagonal.place,
+        storey_height: heights[storey],
+    };
+    ends.into_iter().find_map(|(offset, rigid, column)| {
+        let Some(rigid) = rigid else {
+            return (offset != 0.0).then(|| {
+                format!(
+                    "{} meets {} between floors, and there is none; leave offset and struts out there, or add the column",
+                    diagonal.place,
+                    name(column)
+                )
+            });
+        };
+        limits.fault(&name(column), offset, rigid)
+    })
+}
+
+/// Why points of columns cannot take the mass of these from the floors; `None` if floors are heavier than half of all columns below and
+/// above them.
+pub(super) fn fault_of_column_masses(tiers: &Tiers) -> Option<String> {
+    let frame = tiers.space_frame.as_ref()?;
+    let mut halves = vec![0.0; tiers.floors.len()];
+    for member in &frame.members {
+        let SpacePlace::Column { storey, .. } = member.place else {
+            continue;
+        };
+        let length = tiers.storey_heights.get(storey).copied().unwrap_or(0.0);
+        let half = 0.5 * member.section.line_mass * length;
+        let floors = [storey.checked_sub(1), Some(storey)];
+        for floor in floors.into_iter().flatten() {
+            if let Some(sum) = halves.get_mut(floor) {
+                *sum += half;
+            }
+        }
+    }
+    let mut floors = halves.into_iter().zip(&tiers.floors).enumerate();
+    let (floor, (half, tier)) = floors.find(|(_, (half, floor))| floor.mass <= *half)?;
+    Some(format!(
+        "whose mass is a part of that of the floors: floor {} has {:.0} kg, and half of the columns below and above it {half:.0} kg; give mass with all columns",
+        floor + 1,
+        tier.mass
     ))
 }
 

@@ -74,8 +74,9 @@ impl Side<'_> {
         self.building.base.isolation.is_some()
     }
 
+    /// Whether neighbours can hit columns of it between floors.
     fn has_columns(&self) -> bool {
-        matches!(self.building.structure, Structure::Frame(_))
+        self.building.has_columns_to_hit()
     }
 
     fn is_in_space(&self) -> bool {
@@ -92,8 +93,12 @@ impl Side<'_> {
         let nearest = self.floor_near(height, f64::INFINITY).unwrap_or(0.0);
         let hint = format!("(nearest: {nearest:.3} m)");
         if !self.has_columns() {
+            let frame = match self.is_in_space() {
+                true => "space frame",
+                false => "frame",
+            };
             return Err(format!(
-                "{at} {hint}, and no columns that can be hit between floors; move the point to a floor, raise level_tolerance, or describe \"{name}\" as a frame"
+                "{at} {hint}, and no columns that can be hit between floors; move the point to a floor, raise level_tolerance, or describe \"{name}\" as a {frame}"
             ));
         }
         if height > self.roof() {
@@ -218,8 +223,10 @@ fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
                 listed.unwrap_or_default()
             )
         }
-        [false, false] if [left, right].iter().any(|side| side.is_in_space()) => format!(
-            "columns of buildings with a plan cannot be hit between floors yet: {slabs}, or leave the gap out"
+        [false, false] if left.is_in_space() => format!(
+            "of buildings with a plan only space frames have columns that can be hit between floors: {slabs}, describe {} and {} as space frames, or leave the gap out",
+            name(left),
+            name(right)
         ),
         [false, false] => format!(
             "shear buildings and given ones have no columns to hit: {slabs}, or describe {} and {} as frames",
@@ -232,8 +239,12 @@ fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
             } else {
                 (left, right)
             };
+            let kind = match shear.is_in_space() {
+                true => "space frame",
+                false => "frame",
+            };
             format!(
-                "floors of {} can hit columns of {}: list the pairs{}; or describe {} as a frame, or {slabs}",
+                "floors of {} can hit columns of {}: list the pairs{}; or describe {} as a {kind}, or {slabs}",
                 name(shear),
                 name(frame),
                 example([left, right], usize::from(left_has)).unwrap_or_default(),

@@ -1,7 +1,9 @@
 //! From the gaps and links of a model to contacts and elements between points.
 
 use super::contact_points::{PointPair, SAME, point_pairs};
+use super::plan_gap::struck_columns;
 use crate::model::{FloorPairs, Model};
+use crate::structure::StruckPoints;
 
 /// Points of all gaps and links of a checked model.
 #[derive(Clone, Debug)]
@@ -22,7 +24,12 @@ impl Model {
     /// it or links end, above its base \[m\].
     #[must_use]
     pub fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
-        JoinedPoints::new(self).points_between_floors(self, building)
+        JoinedPoints::new(self).points_on_faces(self, building)
+    }
+
+    /// Whether others can strike columns of a space frame between its floors.
+    pub(crate) fn is_struck_between_floors(&self, building: usize) -> bool {
+        !struck_columns(self, building).is_empty()
     }
 }
 
@@ -51,8 +58,16 @@ impl JoinedPoints {
         }
     }
 
+    /// Points of a building of the model between its floors at which others can strike it, or links end.
+    pub(crate) fn struck_points(&self, model: &Model, building: usize) -> StruckPoints {
+        StruckPoints {
+            faces: self.points_on_faces(model, building),
+            columns: struck_columns(model, building),
+        }
+    }
+
     /// Heights above its base of the points on the left and on the right face of a building of the model that are not floors \[m\].
-    pub(crate) fn points_between_floors(&self, model: &Model, building: usize) -> [Vec<f64>; 2] {
+    pub(crate) fn points_on_faces(&self, model: &Model, building: usize) -> [Vec<f64>; 2] {
         let building_model = model.buildings.get(building);
         let foot = building_model.map_or(0.0, |building| building.base.elevation);
         let mut points = [Vec::new(), Vec::new()];

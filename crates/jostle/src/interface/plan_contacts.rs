@@ -3,6 +3,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Serialize;
+
 use crate::model::{PlanContact, PlanPoint};
 
 /// Greatest angle between edges that face each other \[rad\].
@@ -13,12 +15,15 @@ const LEAST_OVERLAP: f64 = 1e-3;
 pub(crate) const MOST_POINTS: usize = 9;
 
 /// How two plans touch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum PlanContactKind {
     /// Two edges that face each other.
     Face,
     /// A corner before an edge or before another corner.
     Corner,
+    /// An edge before a column of a space frame between its floors.
+    Column,
 }
 
 impl PlanContactKind {
@@ -28,6 +33,7 @@ impl PlanContactKind {
         match self {
             Self::Face => "face",
             Self::Corner => "corner",
+            Self::Column => "column",
         }
     }
 }
@@ -39,6 +45,8 @@ pub enum PlanPart {
     Edge(usize),
     /// The corner of this index, from 0.
     Corner(usize),
+    /// The column at the crossing of these lines of a space frame, from 0.
+    Column([usize; 2]),
 }
 
 /// Two edges that face each other, or a corner with one of the normals along which it can be touched.
@@ -49,7 +57,7 @@ pub(crate) struct PlanFace {
     pub(crate) parts: [PlanPart; 2],
     /// Unit normal from the first plan to the second.
     pub(crate) normal: PlanPoint,
-    /// Length of the face; zero for a corner \[m\].
+    /// Length of the face, width of a column; zero for a corner \[m\].
     pub(crate) overlap: f64,
     /// Middle of the face, or the corner, midway across the gap \[m\].
     pub(crate) middle: PlanPoint,
@@ -84,11 +92,11 @@ fn minus(a: PlanPoint, b: PlanPoint) -> PlanPoint {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn dot(a: PlanPoint, b: PlanPoint) -> f64 {
+pub(super) fn dot(a: PlanPoint, b: PlanPoint) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn cross(a: PlanPoint, b: PlanPoint) -> f64 {
+pub(super) fn cross(a: PlanPoint, b: PlanPoint) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 

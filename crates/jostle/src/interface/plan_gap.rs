@@ -1,25 +1,56 @@
 //! The faces of a gap between two buildings with plans.
 
-use super::contact_points::point_pairs;
-use super::plan_contacts::{PlanFace, plan_faces};
+use std::collections::BTreeMap;
+
+use super::contact_points::{PointPair, SAME, point_pairs};
+use super::plan_contacts::{
+    FacePoint, PlanContactKind, PlanFace, PlanPart, cross, dot, plan_faces,
+};
 use crate::linear::sort_by_key;
-use crate::model::{Gap, Model, PlanPoint, Structure};
+use crate::model::{
+    Building, FloorPairs, Gap, Model, PlanContact, PlanPoint, SpaceFrame, SpacePlace, Structure,
+};
+
+/// Cosine of the angle between normals of contacts on one side of a column \[–\].
+const SAME_SIDE: f64 = 0.9;
+
+/// What a face touches on one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Touched {
+    /// A floor, from 1; 0 for a mat and for a wall.
+    Floor(usize),
+    /// A column of a space frame, so far above the joint at its foot \[m\].
+    Column(SpacePlace, f64),
+}
+
+impl Touched {
+    /// From the ground up: floors have even ranks, columns odd ones.
+    fn rank(self) -> usize {
+        match self {
+            Self::Floor(floor) => 2 * floor,
+            Self::Column(column, _) => 2 * column.storey() + 1,
+        }
+    }
+}
 
 /// Plans on one side of a gap, from the ground up, with the heights of the floors above the common datum; that of a wall stands for every height.
-struct Side {
+struct Side<'a> {
     /// Number of the first plan: 0 for a mat and for a wall, 1 for a floor.
     first: usize,
     plans: Vec<Vec<PlanPoint>>,
     heights: Vec<f64>,
+    /// Columns that can be struck between floors, with the storey heights above a base at this height.
+    columns: Option<(&'a SpaceFrame, &'a [f64], f64)>,
 }
 
-impl Side {
-    fn new(model: &Model, side: Option<usize>) -> Option<Self> {
+impl<'a> Side<'a> {
+    fn new(model: &'a Model, side: Option<usize>) -> Option<Self> {
         if let Some(wall) = model.wall(side) {
             return Some(Self {
                 first: 0,
                 plans: vec![wall.plan()?],
                 heights: Vec::new(),
+                columns: None,
             });
         }
         let building = model.buildings.get(side?)?;
@@ -35,6 +66,10 @@ impl Side {
                     first: usize::from(mat.is_none()),
                     heights: heights.chain(building.floor_levels()).collect(),
                     plans: mat.into_iter().chain(floors).collect(),
+                    columns: tiers
+                        .space_frame
+                        .as_ref()
+                        .map(|frame| (frame, &tiers.storey_heights[..], building.base.elevation)),
                 })
             }
             _ => None,
@@ -53,25 +88,237 @@ impl Side {
     }
 }
 
-/// Faces of a gap with the numbers of their floors, from the lowest up, 0 for a mat and for a wall; `None` where its buildings or
-/// floors do not fit.
-pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], PlanFace)>> {
+impl Side<'_> {
+    /// Storey of a height between floors, from 0, and how far above its lower floor it is \[m\].
+    fn storey(&self, height: f64) -> Option<(usize, f64)> {
+        let (_, storey_heights, base) = self.columns?;
+        let mut foot = base;
+        storey_heights.iter().enumerate().find_map(|(storey, own)| {
+            let above = height - foot;
+            foot += own;
+            (above > 0.0 && above < *own).then_some((storey, above))
+        })
+    }
+
+    /// What a face at a height touches, a floor or columns of a storey, and the plan that bounds it there: that of the floor above.
+    fn level(&self, height: Option<f64>) -> Option<(Level, &[PlanPoint])> {
+        if let Some(index) = self.floor(height) {
+            let touched = Touched::Floor(self.first + index);
+            return Some((Level::Floor(touched), self.plans.get(index)?));
+        }
+        let (storey, above) = self.storey(height?)?;
+        let plan = self.plans.get(storey + 1 - self.first)?;
+        Some((Level::Columns { storey, above }, plan))
+    }
+}
+
+/// What one side of a gap has at a height.
+#[derive(Clone, Copy)]
+enum Level {
+    Floor(Touched),
+    /// Storey, from 0, and height above its lower floor \[m\].
+    Columns {
+        storey: usize,
+        above: f64,
+    },
+}
+
+/// Faces of a gap with what they touch, from the lowest up; `None` where its buildings or floors do not fit.
+pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([Touched; 2], PlanFace)>> {
     let [a, b] = gap.between;
     let sides = [Side::new(model, a)?, Side::new(model, b)?];
     let neighbours = model.neighbours(gap.between);
     let pairs = point_pairs(&gap.floors, neighbours, gap.level_tolerance).ok()?;
-    let mut found = Vec::new();
-    for pair in pairs {
-        let [Some(i), Some(j)] = [0, 1].map(|side: usize| sides[side].floor(pair[side])) else {
-            continue;
-        };
-        let plans = (sides[0].plans.get(i)?, sides[1].plans.get(j)?);
-        let faces = plan_faces(plans.0, plans.1, &gap.in_plan);
-        let numbers = [sides[0].first + i, sides[1].first + j];
-        found.extend(faces.into_iter().map(|face| (numbers, face)));
-    }
-    sort_by_key(&mut found, |(floors, _)| *floors);
+    let pairs = pairs.iter();
+    let mut found: Vec<_> = pairs
+        .flat_map(|pair| faces_of_pair(&sides, pair, &gap.in_plan))
+        .collect();
+    sort_by_key(&mut found, |(touched, _)| touched.map(Touched::rank));
     Some(found)
+}
+
+/// What touches at one pair of heights.
+fn faces_of_pair(
+    sides: &[Side<'_>; 2],
+    pair: &PointPair,
+    contact: &PlanContact,
+) -> Vec<([Touched; 2], PlanFace)> {
+    let [Some((one, first)), Some((other, second))] =
+        [0, 1].map(|side: usize| sides[side].level(pair[side]))
+    else {
+        return Vec::new();
+    };
+    let faces = plan_faces(first, second, contact);
+    match (one, other) {
+        (Level::Floor(one), Level::Floor(other)) => {
+            let faces = faces.into_iter();
+            faces.map(|face| ([one, other], face)).collect()
+        }
+        (Level::Floor(slab), Level::Columns { storey, above }) => {
+            let columns = sides[1].struck_by(&faces, 1, storey, contact).into_iter();
+            let touched = |column| [slab, Touched::Column(column, above)];
+            columns
+                .map(|(column, face)| (touched(column), face))
+                .collect()
+        }
+        (Level::Columns { storey, above }, Level::Floor(slab)) => {
+            let columns = sides[0].struck_by(&faces, 0, storey, contact).into_iter();
+            let touched = |column| [Touched::Column(column, above), slab];
+            columns
+                .map(|(column, face)| (touched(column), face))
+                .collect()
+        }
+        // Columns do not reach each other before slabs do.
+        (Level::Columns { .. }, Level::Columns { .. }) => Vec::new(),
+    }
+}
+
+/// Entries of the listed points of a gap that lie on columns, but at which nothing touches, and whether both sides are columns.
+pub(crate) fn columns_not_met(model: &Model, gap: &Gap) -> Vec<(usize, bool)> {
+    let [a, b] = gap.between;
+    let is_listed = matches!(gap.floors, FloorPairs::Listed(_) | FloorPairs::Heights(_));
+    let (Some(one), Some(other), true) = (Side::new(model, a), Side::new(model, b), is_listed)
+    else {
+        return Vec::new();
+    };
+    let sides = [one, other];
+    let neighbours = model.neighbours(gap.between);
+    let pairs = point_pairs(&gap.floors, neighbours, gap.level_tolerance).unwrap_or_default();
+    let pairs = pairs.iter().enumerate();
+    let missed = pairs.filter_map(|(entry, pair)| {
+        let on_columns = [0, 1].map(|side: usize| {
+            let level = sides[side].level(pair[side]);
+            matches!(level, Some((Level::Columns { .. }, _)))
+        });
+        let touches = !faces_of_pair(&sides, pair, &gap.in_plan).is_empty();
+        (on_columns != [false; 2] && !touches).then_some((entry, on_columns == [true; 2]))
+    });
+    missed.collect()
+}
+
+impl Side<'_> {
+    /// Columns of a storey that a slab strikes over the common width of both buildings, each with its own contact. `faces`: those of the slab
+    /// and the plan above the columns, which are on this `side` of them.
+    fn struck_by(
+        &self,
+        faces: &[PlanFace],
+        side: usize,
+        storey: usize,
+        contact: &PlanContact,
+    ) -> Vec<(SpacePlace, PlanFace)> {
+        let mut found: Vec<(SpacePlace, PlanFace)> = Vec::new();
+        let members = self.columns.iter().flat_map(|(frame, ..)| {
+            let members = frame.members.iter();
+            members.map(move |member| (frame, member))
+        });
+        for (frame, member) in members {
+            let SpacePlace::Column { line, storey: own } = member.place else {
+                continue;
+            };
+            for face in faces {
+                // Lines that do not exist are a fault of the building.
+                let [x, y] = line;
+                let is_inside = x < frame.lines_x.len() && y < frame.lines_y.len();
+                if own != storey || !is_inside || face.kind != PlanContactKind::Face {
+                    continue;
+                }
+                let size = sizes_along(frame.direction, member.section.size, face.normal);
+                let Some(face) = face.at_column(side, frame.point(line), size, line) else {
+                    continue;
+                };
+                let is_near = face.points.iter().all(|point| point.gap <= contact.reach);
+                // Where two edges of one side meet, a column stands before both.
+                let is_new = found.iter().all(|(column, known)| {
+                    *column != member.place || dot(known.normal, face.normal) < SAME_SIDE
+                });
+                if is_near && is_new {
+                    found.push((member.place, face));
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Sizes of a rectangle, with sides in the directions of lines, along a normal and across it \[m\].
+fn sizes_along(direction: PlanPoint, [a, b]: [f64; 2], normal: PlanPoint) -> [f64; 2] {
+    let [along, across] = [dot(direction, normal).abs(), cross(direction, normal).abs()];
+    [along * a + across * b, across * a + along * b]
+}
+
+impl PlanFace {
+    /// The contact of a slab with one column of a side of this face, if the column stands within its length: the face of the column, or the
+    /// edge of the plan where that lies further in, is struck by all the stiffness of the law. `size`: of the column along the normal and
+    /// across it.
+    fn at_column(
+        &self,
+        side: usize,
+        column: PlanPoint,
+        size: [f64; 2],
+        line: [usize; 2],
+    ) -> Option<Self> {
+        let along = [-self.normal[1], self.normal[0]];
+        let (first, last) = (self.points.first()?, self.points.last()?);
+        let place = dot(column, along);
+        let ends = [first, last].map(|end| dot(end.at, along));
+        if place < ends[0] - SAME || place > ends[1] + SAME {
+            return None;
+        }
+        let share = ((place - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0);
+        let between = |from: f64, to: f64| from + share * (to - from);
+        let gap = between(first.gap, last.gap);
+        let midway = [0, 1].map(|axis| between(first.at[axis], last.at[axis]));
+        // Out of the struck building.
+        let outward = self
+            .normal
+            .map(|value| if side == 0 { value } else { -value });
+        let depth = dot(midway, outward) - 0.5 * gap - dot(column, outward);
+        let set_back = (depth - 0.5 * size[0]).max(0.0);
+        let at = [0, 1].map(|axis| midway[axis] - 0.5 * set_back * outward[axis]);
+        let mut parts = self.parts;
+        parts[side] = PlanPart::Column(line);
+        Some(Self {
+            kind: PlanContactKind::Column,
+            parts,
+            normal: self.normal,
+            overlap: size[1],
+            middle: at,
+            points: vec![FacePoint {
+                at,
+                gap: gap + set_back,
+                share: 1.0,
+            }],
+            ends: Vec::new(),
+        })
+    }
+}
+
+/// Columns of a building that others can strike, and how far above the joint at their foot, by all gaps of a model \[m\].
+pub(crate) fn struck_columns(model: &Model, building: usize) -> BTreeMap<SpacePlace, Vec<f64>> {
+    let mut found: BTreeMap<SpacePlace, Vec<f64>> = BTreeMap::new();
+    let structure = model
+        .buildings
+        .get(building)
+        .map(|building: &Building| &building.structure);
+    if !matches!(structure, Some(Structure::Tiers(tiers)) if tiers.space_frame.is_some()) {
+        return found;
+    }
+    for gap in &model.gaps {
+        for side in [0, 1]
+            .into_iter()
+            .filter(|side| gap.between[*side] == Some(building))
+        {
+            for (touched, _) in faces_of_gap(model, gap).unwrap_or_default() {
+                if let Touched::Column(column, above) = touched[side] {
+                    let heights = found.entry(column).or_default();
+                    if !heights.iter().any(|known| (known - above).abs() <= SAME) {
+                        heights.push(above);
+                    }
+                }
+            }
+        }
+    }
+    found
 }
 
 /// Least distance of the plans at the contact points of a gap \[m\]; `None` if it has none.
@@ -82,7 +329,7 @@ pub fn narrowest_gap(model: &Model, gap: usize) -> Option<f64> {
 
 /// Least distance of faces and corners \[m\]. Of two corners that pass each other one may already be behind the other; then
 /// the distance along the other normal counts.
-pub(crate) fn narrowest(faces: &[([usize; 2], PlanFace)]) -> Option<f64> {
+pub(crate) fn narrowest(faces: &[([Touched; 2], PlanFace)]) -> Option<f64> {
     let of_face = |face: &PlanFace| {
         let is_behind = face.ends.iter().any(|end| end.is_indentation);
         let points = face.points.iter().map(|point| point.gap);

@@ -20,6 +20,21 @@ pub struct Port {
     pub level: f64,
 }
 
+impl Port {
+    /// Whether it is the node that alone has this displacement, over the vectors of a [`crate::State`]; floors in plan move with
+    /// several.
+    #[must_use]
+    pub fn is_at(&self, dof: usize) -> bool {
+        let entries = self.row.entries();
+        match self.floor {
+            Some(_) => *entries == [(dof, 1.0)],
+            None => entries
+                .iter()
+                .any(|(place, share)| *place == dof && *share != 0.0),
+        }
+    }
+}
+
 /// The left and the right point; `None` is a rigid wall, which moves with the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PortPair(pub [Option<Port>; 2]);

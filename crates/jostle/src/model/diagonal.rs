@@ -3,15 +3,16 @@
 use super::PlanAxis;
 use crate::hysteresis::Hysteresis;
 
-/// A brace, or a strut of an infill panel, between two joints of a frame at opposite corners of a bay of a storey.
+/// A brace, or a strut of an infill panel, between two joints of a frame: at opposite corners of a bay of a storey, or, of a brace in a
+/// plane frame, farther apart.
 ///
 /// ```
-/// use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise, StrutLine};
+/// use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Reach, Rise, StrutLine};
 ///
 /// // A steel rod of 2000 mm² across a bay of 6 m and a storey of 3.5 m.
 /// let length = 6.0_f64.hypot(3.5);
 /// let rod = Diagonal {
-///     place: DiagonalPlace { kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right, strut: StrutLine::Central },
+///     place: DiagonalPlace { kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right, reach: Reach::BAY, strut: StrutLine::Central },
 ///     stiffness: 210e9 * 2000e-6 / length,
 ///     hysteresis: None, // it stays elastic
 ///     offsets: [0.0; 2], // from joint to joint
@@ -29,7 +30,7 @@ pub struct Diagonal {
     /// Its force if it yields, positive in tension; its initial stiffness then takes the place of `stiffness`.
     pub hysteresis: Option<Hysteresis>,
     /// How far its lower end lies above the joint there, and its upper end below the other joint, along the columns: both ≥ 0, at most a
-    /// quarter of the storey, and zero in a space frame \[m\].
+    /// quarter of the storey \[m\].
     pub offsets: [f64; 2],
     /// What the panel of a strut bears across its plane, if that is compared; it has no part in the motion unless the panel falls.
     pub across: Option<PanelAcross>,
@@ -104,14 +105,45 @@ pub struct DiagonalPlace {
     pub kind: DiagonalKind,
     /// The grid line of a space frame to which its bay belongs; `None` in a plane frame.
     pub line: Option<GridLine>,
-    /// Storey.
+    /// Storey, the lowest that it crosses.
     pub storey: usize,
-    /// Bay.
+    /// Bay, the leftmost that it crosses; of one that crosses none the bay right of its line.
     pub bay: usize,
     /// Which way it rises.
     pub rise: Rise,
+    /// How far it reaches from there.
+    pub reach: Reach,
     /// Which of the parallel struts of a panel it is.
     pub strut: StrutLine,
+}
+
+/// How many storeys and bays a diagonal crosses.
+///
+/// ```
+/// use jostle::{DiagonalKind, DiagonalPlace, Reach, Rise, StrutLine};
+///
+/// // From the foot of the first column line to floor 2 of the third.
+/// let place = DiagonalPlace {
+///     kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right,
+///     reach: Reach { storeys: 2, bays: 2 }, strut: StrutLine::Central,
+/// };
+/// assert_eq!((place.floors(), place.lines()), ([0, 2], [0, 2]));
+/// assert_eq!(place.to_string(), "brace.0.1.to.2.3");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reach {
+    /// Storeys, ≥ 1; 1 of struts and in a space frame.
+    pub storeys: usize,
+    /// Bays; 0 along a column line, 1 of struts and in a space frame.
+    pub bays: usize,
+}
+
+impl Reach {
+    /// From corner to corner of one bay of one storey.
+    pub const BAY: Self = Self {
+        storeys: 1,
+        bays: 1,
+    };
 }
 
 /// Parallel struts of a panel, by where they end.
@@ -189,10 +221,17 @@ impl DiagonalPlace {
     /// Column lines of its lower and of its upper end, from 0; in a space frame lines that cross its own.
     #[must_use]
     pub fn lines(self) -> [usize; 2] {
+        let (left, right) = (self.bay - 1, self.bay - 1 + self.reach.bays);
         match self.rise {
-            Rise::Right => [self.bay - 1, self.bay],
-            Rise::Left => [self.bay, self.bay - 1],
+            Rise::Right => [left, right],
+            Rise::Left => [right, left],
         }
+    }
+
+    /// Floors of its lower and of its upper end; 0 is the ground.
+    #[must_use]
+    pub fn floors(self) -> [usize; 2] {
+        [self.storey - 1, self.storey - 1 + self.reach.storeys]
     }
 }
 
@@ -207,7 +246,7 @@ impl GridLine {
     }
 }
 
-/// `brace.STOREY.BAY.RISE` in a plane frame, `brace_x.STOREY.X.Y.RISE` in a space frame, with the lines at which its bay begins; all
+/// `brace.STOREY.BAY.RISE` in a plane frame, `brace.FLOOR.LINE.to.FLOOR.LINE` beyond one bay of a storey, `brace_x.STOREY.X.Y.RISE` in a space frame, with the lines at which its bay begins; all
 /// count from 1.
 impl std::fmt::Display for DiagonalPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -218,6 +257,10 @@ impl std::fmt::Display for DiagonalPlace {
             StrutLine::Head => format!("{}.head", self.rise.name()),
         };
         let Some(line) = self.line else {
+            if self.reach != Reach::BAY {
+                let ([from, to], [low, high]) = (self.lines(), self.floors());
+                return write!(formatter, "{kind}.{low}.{}.to.{high}.{}", from + 1, to + 1);
+            }
             return write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay);
         };
         let [x, y] = line.crossing(self.bay - 1).map(|crossing| crossing + 1);

@@ -1,6 +1,8 @@
 //! Walls of plane frames, and the beams that couple them.
 
-use super::{Diagonal, Frame, FramePlace, Section};
+use std::collections::BTreeMap;
+
+use super::{ColumnFibres, Diagonal, Frame, FramePlace, Section};
 use crate::hysteresis::Hysteresis;
 
 /// A wall of a plane frame: it takes the place of a column line over some storeys, and beams meet its faces instead of its axis.
@@ -9,6 +11,7 @@ use crate::hysteresis::Hysteresis;
 /// so that its faces rise and sink.
 ///
 /// ```
+/// use std::collections::BTreeMap;
 /// use jostle::{Frame, FrameWall, Section};
 ///
 /// // A wall of 250 mm × 3 m, E = 30 GPa, between two columns.
@@ -24,6 +27,7 @@ use crate::hysteresis::Hysteresis;
 ///     storeys: [1, 4],
 ///     length,
 ///     hinges: Vec::new(),
+///     fibres: BTreeMap::new(),
 ///     shear: None,
 ///     stiffness_factors: [1.0; 2],
 /// };
@@ -41,6 +45,8 @@ pub struct FrameWall {
     pub length: f64,
     /// Hinges, if it yields in bending.
     pub hinges: Vec<WallHinge>,
+    /// Ends of its storeys that are made of fibres, by storey from 1. They have no hinge in `hinges`.
+    pub fibres: BTreeMap<usize, ColumnFibres>,
     /// Shear of its lowest storey, if that yields: force over sliding, positive where the wall slides to the right. Its initial
     /// stiffness takes the place of the shear rigidity of the section there \[N, m\].
     pub shear: Option<Hysteresis>,
@@ -208,7 +214,9 @@ impl Frame {
     /// Whether walls or coupling beams yield.
     #[must_use]
     pub fn walls_yield(&self) -> bool {
-        let yields = |wall: &FrameWall| !wall.hinges.is_empty() || wall.shear.is_some();
+        let yields = |wall: &FrameWall| {
+            !wall.hinges.is_empty() || !wall.fibres.is_empty() || wall.shear.is_some()
+        };
         self.walls.iter().any(yields)
             || self
                 .coupling_beams

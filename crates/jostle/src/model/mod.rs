@@ -39,7 +39,8 @@ pub use capacity::{
     ShearCapacity, capacity_rule_title,
 };
 pub use diagonal::{
-    Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Rise, StrutLine,
+    Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Reach, Rise,
+    StrutLine,
 };
 pub use fibres::{ColumnFibres, Fibre, FibreLimit, FibreMaterial};
 pub(crate) use floor_matrices::displacement_in_words;
@@ -813,6 +814,16 @@ impl Building {
         match &self.structure {
             Structure::Frame(frame) => frame.set_back(floor),
             _ => [0.0; 2],
+        }
+    }
+
+    /// Whether neighbours can hit columns of it between floors.
+    #[must_use]
+    pub fn has_columns_to_hit(&self) -> bool {
+        match &self.structure {
+            Structure::Frame(_) => true,
+            Structure::Tiers(tiers) => tiers.space_frame.is_some(),
+            Structure::Shear(_) | Structure::Given(_) => false,
         }
     }
 

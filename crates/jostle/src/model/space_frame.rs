@@ -216,6 +216,9 @@ pub struct SpaceSection {
     pub axial_rigidity: Option<f64>,
     /// GA_s of the same two planes; `None` neglects shear deformation \[N\].
     pub shear_rigidity: Option<[f64; 2]>,
+    /// Mass per length of a column, ≥ 0, which the floors at its ends include. Points between floors that can be struck, or that struts
+    /// meet, carry their share of it instead of the floors \[kg/m\].
+    pub line_mass: f64,
 }
 
 /// Share of a rectangle that resists shear \[–\].
@@ -248,6 +251,7 @@ impl SpaceSection {
             torsional_rigidity: shear_modulus * torsion,
             axial_rigidity: Some(modulus * area),
             shear_rigidity: shears.then_some([SHEAR_SHARE * shear_modulus * area; 2]),
+            line_mass: 0.0,
         })
     }
 
@@ -338,6 +342,23 @@ impl SpaceFrame {
             rigid(first, crossings[0]),
             rigid(Some(storey), crossings[1]),
         ]
+    }
+
+    /// Columns that struts meet between floors, and how far above the joint at the foot of the column, in a building with these storey
+    /// heights \[m\].
+    pub fn ends_of_struts(
+        &self,
+        storey_heights: &[f64],
+    ) -> impl Iterator<Item = (SpacePlace, f64)> {
+        self.diagonals.iter().flat_map(move |diagonal| {
+            let storey = diagonal.place.storey.wrapping_sub(1);
+            let height = storey_heights.get(storey).copied().unwrap_or(0.0);
+            let [lower, upper] = diagonal.offsets;
+            let crossings = diagonal.place.crossings().into_iter().flatten();
+            let ends = crossings.zip([(lower, lower), (upper, height - upper)]);
+            ends.filter(|(_, (offset, _))| *offset != 0.0)
+                .map(move |(line, (_, above))| (SpacePlace::Column { line, storey }, above))
+        })
     }
 
     /// Length of a member between its rigid ends \[m\].

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::history::{FaceImpact, Impact, Kind, Owner, Sliding};
-use crate::interface::{Contact, MOST_POINTS, PlanPart};
+use crate::interface::{Contact, MOST_POINTS, PlanContactKind, PlanPart};
 use crate::linear::sort_by;
 use crate::quantity::{Quantity, Unit};
 use crate::stepping::Outcome;
@@ -96,13 +96,13 @@ impl BuildingInPlan {
 /// Where a contact of two plans is.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct PlanContactSummary {
-    /// `face` or `corner`.
-    pub kind: &'static str,
+    /// `face`, `corner` or `column`.
+    pub kind: PlanContactKind,
     /// Middle of the face, or the corner, on the site \[m\].
     pub plan_m: [f64; 2],
     /// Unit normal from the first building to the second.
     pub normal: [f64; 2],
-    /// Length of the face; zero for a corner \[m\].
+    /// Length of the face, width of a column; zero for a corner \[m\].
     pub overlap_m: f64,
     /// What touches, of the first building and of the second.
     #[serde(skip)]
@@ -281,7 +281,7 @@ pub(super) fn place_of_face(
         })
         .collect();
     Some(PlanContactSummary {
-        kind: first.kind.name(),
+        kind: first.kind,
         plan_m: [0, 1].map(|axis| 0.5 * (first.at[axis] + last.at[axis])),
         normal: first.normal,
         overlap_m: first.overlap,

@@ -5,7 +5,6 @@ use super::summarise::{Run, counted_impacts};
 use super::summary::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
-use crate::linear::Row;
 use crate::stepping::Outcome;
 use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
 use crate::system::BuildingSystem;
@@ -158,8 +157,8 @@ fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f6
     for (index, contact) in run.system.contacts.iter().enumerate() {
         let mut ports = contact.ports.0.iter().flatten();
         let here = ports.any(|port| {
-            let single = section.dof.map(|dof| Row::single(offset + dof));
-            port.building == building && single.as_ref() == Some(&port.row)
+            let mut dofs = section.dofs.into_iter().flatten();
+            port.building == building && dofs.any(|dof| port.is_at(offset + dof))
         });
         if here {
             let gap = &run.model.gaps[contact.gap];

@@ -1,9 +1,10 @@
 //! Peaks of braces, struts, walls and coupling beams of frames, and of the ground under foundations that lift off.
 
 use super::summarise::{Run, springs_of};
-use super::summary::{BuildingSummary, PartSummary, SpringSummary};
+use super::summary::{BuildingSummary, FibreSummary, PartSummary, SpringSummary};
 use crate::history::{Kind, Owner};
 use crate::hysteresis::{HysteresisRule, Stage};
+use crate::model::Reach;
 use crate::stepping::Outcome;
 use crate::structure::{
     CouplingForce, DiagonalForce, FrameDiagonal, MemberPlace, SpringPlace, WallForce,
@@ -11,7 +12,13 @@ use crate::structure::{
 use crate::system::BuildingSystem;
 
 /// Braces, struts, walls and coupling beams of a building, each in the order of the model, then what it lifts off.
-pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Vec<PartSummary> {
+/// `sections`: its ends made of fibres.
+pub(super) fn parts_of(
+    index: usize,
+    building: &BuildingSystem,
+    sections: &[FibreSummary],
+    run: &Run,
+) -> Vec<PartSummary> {
     let outcome = run.outcome;
     let diagonals = &building.discretization.diagonals;
     if diagonals.is_empty()
@@ -93,7 +100,7 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
         .diagonals
         .iter()
         .map(part)
-        .chain(walls.map(|wall| of_wall(building, &springs, wall, range)))
+        .chain(walls.map(|wall| of_wall(building, &springs, wall, sections, range)))
         .chain(beams.map(|beam| of_coupling_beam(building, &springs, beam, range)))
         .chain(footings_of(building, &springs, outcome))
         .collect()
@@ -157,11 +164,12 @@ pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
     buildings.iter().filter_map(warning).collect()
 }
 
-/// Peaks at the foot of a wall; `range`: greatest and least value of a form.
+/// Peaks at the foot of a wall; `sections`: all ends made of fibres; `range`: greatest and least value of a form.
 fn of_wall(
     building: &BuildingSystem,
     springs: &[SpringSummary],
     wall: &WallForce,
+    sections: &[FibreSummary],
     range: impl Fn(usize) -> [f64; 2],
 ) -> PartSummary {
     let discretization = &building.discretization;
@@ -174,7 +182,14 @@ fn of_wall(
         range(wall.moment),
         range(wall.elongation),
     );
-    let turned = |side: fn(&SpringSummary) -> f64| Some(hinge.map_or(0.0, side).max(0.0));
+    let foot = wall.foot_section.map(|foot| &sections[foot]);
+    let [most, least] = match (hinge, foot) {
+        (Some(hinge), _) => [hinge.deformation_max, hinge.deformation_min],
+        (None, Some(foot)) => [foot.rotation_max_rad, -foot.rotation_min_rad],
+        (None, None) => [0.0; 2],
+    };
+    let fibres = wall.sections.iter();
+    let of_fibres: f64 = fibres.map(|section| sections[*section].dissipated_j).sum();
     PartSummary {
         name: name_of(building, wall.frame, &format!("wall.{}", wall.number)),
         kind: "wall",
@@ -184,9 +199,9 @@ fn of_wall(
         deformation_min: -stretched[1].min(0.0),
         moment_max_n_m: Some(moment[0]),
         moment_min_n_m: Some(moment[1]),
-        rotation_max_rad: turned(|spring| spring.deformation_max),
-        rotation_min_rad: turned(|spring| spring.deformation_min),
-        dissipated_j: dissipated.fold(0.0, |sum, spring| sum + spring.dissipated_j),
+        rotation_max_rad: Some(most.max(0.0)),
+        rotation_min_rad: Some(least.max(0.0)),
+        dissipated_j: dissipated.fold(of_fibres, |sum, spring| sum + spring.dissipated_j),
         ..PartSummary::default()
     }
 }
@@ -306,12 +321,16 @@ fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> Strin
     }
 }
 
-/// Name within its frame; only where two cross it says which way it rises.
+/// Name within its frame; only where two cross in a bay it says which way it rises.
 fn local_name(building: &BuildingSystem, diagonal: &FrameDiagonal) -> String {
+    if diagonal.place.reach != Reach::BAY {
+        return diagonal.place.to_string();
+    }
     let bay = |diagonal: &FrameDiagonal| {
         let place = diagonal.place;
         (
             diagonal.frame,
+            place.reach,
             place.kind,
             place.line,
             place.storey,

@@ -187,8 +187,8 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
     let floors: Vec<FloorSummary> = floors.collect();
     let members = members_of(index, run);
     let joints = capacity::joints_of(index, run);
-    let parts = parts_of(index, building, run);
     let sections = sections_of(index, building, run.outcome);
+    let parts = parts_of(index, building, &sections, run);
     BuildingSummary {
         capacity: capacity::of_building(index, &members, &joints, run),
         joints,

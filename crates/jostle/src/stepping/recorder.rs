@@ -3,6 +3,7 @@
 use super::Settings;
 use super::energy::EnergyAudit;
 use crate::history::{Column, Energy, EnergyTerm, History, SpringHistory};
+use crate::interface::PlanContactKind;
 use crate::state::{ContactPhase, State};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
@@ -44,7 +45,7 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
     columns.extend((0..contacts).map(Column::contact_force));
     columns.extend(
         (0..system.contacts.len())
-            .filter(|contact| has_closing(system, grounds, *contact))
+            .filter_map(|contact| closing_of(system, grounds, contact))
             .map(Column::closing),
     );
     let links = system.model_links().len();
@@ -175,7 +176,7 @@ impl Recorder {
         }
         let contacts = system.contacts.iter().enumerate();
         contacts
-            .filter(|(index, _)| has_closing(system, grounds, *index))
+            .filter(|(index, _)| closing_of(system, grounds, *index).is_some())
             .for_each(|(index, contact)| {
                 let [moved, ..] = grounds.closing(index, 0);
                 put(contact.ports.closing(&state.displacement) + moved);
@@ -246,11 +247,22 @@ pub(crate) fn put_energies(
     }
 }
 
-/// Whether histories have the closing of a contact: on a column between floors, or where grounds move apart. In space they have
-/// forces of faces, not what happens at points of them.
-pub(crate) fn has_closing(system: &System, grounds: &RunGrounds<'_>, contact: usize) -> bool {
-    let contact = &system.contacts[contact];
-    contact.is_between_floors() || (grounds.part && contact.plan.is_none())
+/// The reported contact whose closing histories have as that of a contact: on a column between floors, or where grounds move apart. In
+/// space they have forces of faces, not what happens at points of them; a column is a face by itself.
+pub(crate) fn closing_of(system: &System, grounds: &RunGrounds<'_>, index: usize) -> Option<usize> {
+    let contact = &system.contacts[index];
+    let Some(place) = contact.plan else {
+        return (contact.is_between_floors() || grounds.part).then_some(index);
+    };
+    let on_column = |kind: PlanContactKind| kind == PlanContactKind::Column;
+    if on_column(place.kind) {
+        return Some(place.face);
+    }
+    let among_columns = || {
+        let mut all = system.contacts.iter().filter_map(|contact| contact.plan);
+        all.any(|other| on_column(other.kind))
+    };
+    (contact.is_between_floors() && !among_columns()).then_some(index)
 }
 
 /// Calls `put` with the force of every face of buildings in space, the sum of those of its points \[N\].

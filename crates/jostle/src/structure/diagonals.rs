@@ -75,9 +75,9 @@ impl Discretization {
     ) {
         for diagonal in diagonals {
             let [lower, upper] = diagonal.place.lines();
-            let storey = diagonal.place.storey;
+            let (storey, [low, high]) = (diagonal.place.storey, diagonal.place.floors());
             // Diagonals without a joint are faults of the model.
-            let (Some(from), Some(to)) = (joints[storey - 1][lower], joints[storey][upper]) else {
+            let (Some(from), Some(to)) = (joints[low][lower], joints[high][upper]) else {
                 continue;
             };
             let sticks = &self.stick_model;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::column_ends::FibreSection;
+use super::column_points::StruckPoints;
 use super::cuts::{cut_at, cut_exactly, cuts_at, equal_cuts};
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
@@ -85,21 +86,21 @@ impl Discretization {
     /// Lumped masses, massless members and hinges of a building.
     #[must_use]
     pub fn new(building: &Building) -> Self {
-        Self::with_points(building, [&[], &[]])
+        Self::with_points(building, &StruckPoints::default())
     }
 
-    /// The same with lumped masses at additional heights of the left and the right side, for contacts with columns
-    /// of a frame \[m\]: the nearest lumped mass between the floors moves there if it is within a quarter of a
-    /// segment; otherwise a mass is added.
+    /// The same with lumped masses at additional points of columns, for contacts between floors. In one plane the nearest lumped mass
+    /// between the floors moves there if it is within a quarter of a segment; otherwise a mass is added.
     #[must_use]
-    pub fn with_points(building: &Building, points: [&[f64]; 2]) -> Self {
+    pub fn with_points(building: &Building, points: &StruckPoints) -> Self {
         let mut discretization = match &building.structure {
             Structure::Frame(frame) => {
                 let hinges = match &building.hinges {
                     Some(Hinges::Frame(hinges)) => hinges,
                     _ => &FrameHinges::default(),
                 };
-                discretize_frame(frame, &building.base, hinges, points)
+                let faces = points.faces.each_ref().map(|heights| &heights[..]);
+                discretize_frame(frame, &building.base, hinges, faces)
             }
             Structure::Shear(shear) => {
                 let springs: &[Hysteresis] = match &building.hinges {
@@ -109,7 +110,9 @@ impl Discretization {
                 discretize_shear(shear, &building.base, springs)
             }
             Structure::Given(given) => discretize_given(given),
-            Structure::Tiers(tiers) => discretize_tiers(tiers, building.gravity, &building.base),
+            Structure::Tiers(tiers) => {
+                discretize_tiers(tiers, building.gravity, &building.base, &points.columns)
+            }
         };
         discretization.elevation = building.base.elevation;
         let in_plan = matches!(building.structure, Structure::Tiers(_));
@@ -509,7 +512,10 @@ pub(super) fn discretize_frame(
             let mut ends = faces;
             let wall = frame.wall([storey, line]);
             let grid = wall.is_none().then_some(hinges);
-            let fibres = grid.and_then(|grid| grid.fibres.get(&[storey, line]));
+            let fibres = match wall {
+                Some(wall) => wall.fibres.get(&(storey + 1)),
+                None => hinges.fibres.get(&[storey, line]),
+            };
             let hinge = grid.and_then(|grid| grid.columns.get(storey)?.get(line));
             let hinge = hinge.filter(|_| fibres.is_none());
             let shear = grid.and_then(|grid| grid.shear.get(storey)?.get(line));
@@ -539,7 +545,7 @@ pub(super) fn discretize_frame(
                 let node = &mut ends[end as usize];
                 if let Some(fibres) = fibres.filter(|fibre| fibre.at_ends[end as usize]) {
                     let place = [storey + 1, line + 1];
-                    let (beyond, section) = stick_model.add_fibres(joint, fibres, place, end);
+                    let (beyond, section) = stick_model.add_fibres(*node, fibres, place, end);
                     *node = beyond;
                     row_places.extend(section.places());
                     discretization.sections.push(section);

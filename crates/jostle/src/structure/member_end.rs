@@ -42,7 +42,9 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
         let bent: f64 = entries.map(|end| element.entry(0, end)).sum();
         for ((node, _), _) in element.deformations().iter().flat_map(places) {
             if stick_model.space_ends.contains(&node) {
-                in_space[node] = Some(bent);
+                // A column in parts bends as a whole.
+                let whole = stick_model.double_curvature.get(&node);
+                in_space[node] = Some(whole.copied().unwrap_or(bent));
             }
         }
     }

@@ -84,8 +84,8 @@ pub struct MemberSection {
     pub at: SectionAt,
     /// Height above the base \[m\].
     pub height: f64,
-    /// Horizontal displacement of the node there, in the vectors of the building; `None` at the ground.
-    pub dof: Option<usize>,
+    /// Horizontal displacements of the node there along the row and, in space, across, in the vectors of the building; `None` at the ground.
+    pub dofs: [Option<usize>; 2],
     /// Axial force, shear and moment: indices into [`MemberForces::forms`].
     pub forms: [usize; 3],
     /// Shear and moment in the plane across, and torque, of a member of a space frame.
@@ -330,7 +330,7 @@ impl MemberForces {
             forces.add_space_frame(building, frame);
         }
         if let Some(frame) = &building.discretization.jointed_frame {
-            forces.add_jointed_frame(building, frame);
+            forces.add_jointed_frame(building, frame, &struck);
         }
         if building.discretization.members.is_empty() {
             return forces;
@@ -362,7 +362,7 @@ impl MemberForces {
                 MemberSection {
                     at,
                     height: stick_model.nodes[node].y,
-                    dof: building.equations.horizontal(node),
+                    dofs: [building.equations.horizontal(node), None],
                     forms: forms.map(|form| forces.index_of(form)),
                     across: None,
                 }
@@ -453,7 +453,7 @@ impl MemberForces {
         let section = MemberSection {
             at: SectionAt::Core,
             height: below.height,
-            dof: below.dof,
+            dofs: below.dofs,
             forms: forms.map(|form| self.index_of(form)),
             across: None,
         };

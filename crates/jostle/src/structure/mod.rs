@@ -2,6 +2,7 @@
 
 mod assembled_building;
 mod column_ends;
+mod column_points;
 mod cuts;
 mod diagonals;
 mod discretization;
@@ -33,6 +34,8 @@ mod wall_forces;
 
 pub use assembled_building::AssembledBuilding;
 pub use column_ends::FibreSection;
+pub use column_points::StruckPoints;
+pub(crate) use column_points::lightened;
 pub use diagonals::FrameDiagonal;
 pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};
@@ -48,7 +51,7 @@ pub use member_forces::{
 };
 pub use order::{Stage, Turn};
 pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
-pub use space_joints::{JointNodes, JointedFrame, JointedMember};
+pub use space_joints::{JointNodes, JointedFrame, JointedMember, JointedPart, PointNode};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{

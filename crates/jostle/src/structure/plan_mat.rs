@@ -164,28 +164,31 @@ impl Discretization {
         let heights = self.floors.iter().map(|floor| sticks.nodes[*floor].y);
         let heights: Vec<f64> = heights.collect();
         for (node, stick_node) in sticks.nodes.iter().enumerate() {
-            let (value, is_floor) = (
-                alpha * stick_node.inertia[X],
-                stick_node.influence == Influence::OF_FLOOR,
-            );
             let level = heights
                 .iter()
                 .position(|top| stick_node.y <= top + LEVEL_TOLERANCE);
-            let (Some(level), false) = (level, is_floor || value == 0.0) else {
+            let is_floor = stick_node.influence == Influence::OF_FLOOR;
+            let Some(level) = level.filter(|_| !is_floor) else {
                 continue;
             };
-            // About the centre of the mat instead of that of the floor.
-            let [along, across, turning] = stick_node.influence[X].horizontal();
-            let [x, y] = [0, 1].map(|axis| self.centres[level][axis] - mat.centre[axis]);
-            let shares = [along, across, turning + x * across - y * along];
-            let sum: f64 = shares.iter().sum();
-            // α m u² cancels. A dashpot between two displacements is minus the entry of the matrix, one to the ground the sum of a row.
-            add([(ground, X), (node, X)], -value * sum);
-            for (index, (place, share)) in of_mat.into_iter().zip(shares).enumerate() {
-                add([(node, X), place], value * share);
-                add([(ground, X), place], value * share * (sum - 1.0));
-                for (other, of_other) in of_mat.into_iter().zip(shares).skip(index + 1) {
-                    add([place, other], -value * share * of_other);
+            for component in [X, Y] {
+                // About the centre of the mat instead of that of the floor.
+                let [along, across, turning] = stick_node.influence[component].horizontal();
+                let value = alpha * stick_node.inertia[component];
+                if value == 0.0 || [along, across, turning] == [0.0; 3] {
+                    continue;
+                }
+                let [x, y] = [0, 1].map(|axis| self.centres[level][axis] - mat.centre[axis]);
+                let shares = [along, across, turning + x * across - y * along];
+                let sum: f64 = shares.iter().sum();
+                // α m u² cancels. A dashpot between two displacements is minus the entry of the matrix, one to the ground the sum of a row.
+                add([(ground, X), (node, component)], -value * sum);
+                for (index, (place, share)) in of_mat.into_iter().zip(shares).enumerate() {
+                    add([(node, component), place], value * share);
+                    add([(ground, X), place], value * share * (sum - 1.0));
+                    for (other, of_other) in of_mat.into_iter().zip(shares).skip(index + 1) {
+                        add([place, other], -value * share * of_other);
+                    }
                 }
             }
         }

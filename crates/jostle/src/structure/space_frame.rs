@@ -4,9 +4,13 @@
 //! then follows from u_f alone, d = (B_f + B_j R) u_f = D u_f, and K = Σ Dᵀ k D over all members. D has no rigid motions, and an error
 //! of R counts twice in K, by its square. Forces of members are k D u_f.
 
+use super::column_points::ColumnPoints;
 use crate::linear::envelope::Envelope;
 use crate::linear::{Row, sort_by_key};
-use crate::model::{DiagonalPlace, LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
+use crate::model::{
+    DiagonalPlace, LEVEL_TOLERANCE, LumpedFloor, PlanPoint, SpaceFrame, SpaceMember, SpacePlace,
+    SpaceSection,
+};
 
 /// A space frame over the motions of the mat under it, if there is one, and of its floors: u_x, u_y and θ of each at its centre of mass,
 /// from the ground up.
@@ -68,6 +72,8 @@ pub(super) enum Unknown {
     Floor(usize),
     /// Rise or rotation of an end of a member beyond a hinge or fibres, about an axis of the lines.
     End(usize),
+    /// Of a point of a column, by its number: displacements along the lines x and y, rise, and rotations about the same axes.
+    Point(usize, usize),
     /// Rocking of the base along or across the lines, as a displacement of floors per height, and its rise.
     Rocking(usize),
 }
@@ -203,9 +209,15 @@ pub(super) type Plane = (usize, usize, f64);
 
 /// A member as springs.
 pub(super) struct SpringMember {
+    pub(super) torsion: (f64, Deformation),
+    /// Upwards, or from its first end to its last.
+    pub(super) parts: Vec<SpringPart>,
+}
+
+/// A part of a member between points that move by themselves; the whole of most.
+pub(super) struct SpringPart {
     pub(super) length: f64,
     pub(super) axial: Option<(f64, Deformation)>,
-    pub(super) torsion: (f64, Deformation),
     pub(super) bending: ([f64; 2], [Deformation; 2]),
     pub(super) across: Option<([f64; 2], [Deformation; 2])>,
 }
@@ -214,11 +226,17 @@ impl SpringMember {
     fn springs(&self) -> impl Iterator<Item = Spring> + '_ {
         let single = |(k, d): &(f64, Deformation)| Spring::Single(*k, d.clone());
         let bending = |(k, d): &([f64; 2], [Deformation; 2])| Spring::Bending(*k, d.clone());
-        let axial = self.axial.iter().map(single);
+        let axial = self
+            .parts
+            .iter()
+            .filter_map(move |part| part.axial.as_ref());
+        let bent = self.parts.iter().flat_map(move |part| {
+            std::iter::once(bending(&part.bending)).chain(part.across.iter().map(bending))
+        });
         axial
+            .map(single)
             .chain(std::iter::once(single(&self.torsion)))
-            .chain(std::iter::once(bending(&self.bending)))
-            .chain(self.across.iter().map(bending))
+            .chain(bent)
     }
 }
 
@@ -265,6 +283,8 @@ pub(super) struct Assembly<'a> {
     /// The point about which the mat rocks, if it does.
     rocks_about: Option<(PlanPoint, bool)>,
     pub(super) joints: Joints,
+    /// Points of columns that move by themselves.
+    pub(super) points: ColumnPoints,
 }
 
 /// The planes in which a member bends between joints: those along x and across of a column, that of a beam.
@@ -292,7 +312,13 @@ impl<'a> Assembly<'a> {
             on_mat: mat.is_some(),
             rocks_about: None,
             joints: Joints::new(frame, lumped.len()),
+            points: ColumnPoints::default(),
         }
+    }
+
+    /// The same with points of columns that move by themselves.
+    pub(super) fn with_points(self, points: ColumnPoints) -> Self {
+        Self { points, ..self }
     }
 
     /// The same on a mat that rocks about a point of the site.
@@ -312,6 +338,11 @@ impl<'a> Assembly<'a> {
         let mut raised = vec![(along, -x), (across, -y)];
         raised.extend(rises.then_some((rise, 1.0)));
         [raised, vec![(across, -1.0)], vec![(along, 1.0)]]
+    }
+
+    /// Centre of mass of a floor in the axes of the lines \[m\].
+    pub(super) fn centre_of_floor(&self, floor: usize) -> PlanPoint {
+        self.centres[floor + usize::from(self.on_mat)]
     }
 
     /// Place of a floor among all that moves; what is below the floors is `None`, and does not move without a mat.
@@ -350,6 +381,23 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    /// Displacements of a point of a column with this number. `rise`: that of a column which keeps its length. Its twist is that of a
+    /// straight line between the floors, and turns nothing.
+    fn point(number: usize, rise: Option<&Deformation>) -> End {
+        let own = |motion| vec![(Unknown::Point(number, motion), 1.0)];
+        End {
+            moved: [own(0), own(1), rise.cloned().unwrap_or_else(|| own(2))],
+            turned: [own(3), own(4), Deformation::new()],
+        }
+    }
+
+    /// End moments of a member per equal rotation of both ends against the chord.
+    pub(super) fn double_curvature(&self, member: &SpaceMember, plane: usize) -> f64 {
+        let length = self.frame.clear_length(member.place, self.heights);
+        let stiffness = bending_stiffness(&member.section, plane, length);
+        stiffness.iter().sum()
+    }
+
     /// A member as springs. `unknowns`: what its first and last end have beyond hinges or fibres.
     pub(super) fn springs(
         &self,
@@ -376,53 +424,93 @@ impl<'a> Assembly<'a> {
         };
         let [first, last] = unknowns;
         let [a, b] = ends;
-        let [a, b] = &[
+        let [a, b] = [
             a.at(arm(rigid[0])).beyond(first),
             b.at(arm(-rigid[1])).beyond(last),
         ];
-        let bend = |plane: usize| {
-            let (towards, about, slope) = planes[plane];
-            let chord = difference(1.0 / length, &b.moved[towards], &a.moved[towards]);
-            let rotations = [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord));
-            (bending_stiffness(section, plane, length), rotations)
-        };
         let is_column = planes.len() == 2;
         let stretch = section.axial_rigidity.filter(|_| is_column);
+        let torsion = (
+            section.torsional_rigidity / length,
+            difference(1.0, &b.turned[axis], &a.turned[axis]),
+        );
+        let rise = (is_column && stretch.is_none()).then(|| a.moved[2].clone());
+        let mut cuts = vec![(0.0, a)];
+        let points = self.points.of(place);
+        cuts.extend(
+            points.map(|(number, at)| (at.above - rigid[0], Self::point(number, rise.as_ref()))),
+        );
+        cuts.push((length, b));
+        let parts = cuts.windows(2).map(|ends| {
+            let ((from, a), (to, b)) = (&ends[0], &ends[1]);
+            let length = to - from;
+            let bend = |plane: usize| {
+                let (towards, about, slope) = planes[plane];
+                let chord = difference(1.0 / length, &b.moved[towards], &a.moved[towards]);
+                let rotations = [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord));
+                (bending_stiffness(section, plane, length), rotations)
+            };
+            SpringPart {
+                length,
+                axial: stretch.map(|rigidity| {
+                    let difference = difference(1.0, &b.moved[2], &a.moved[2]);
+                    (rigidity / length, difference)
+                }),
+                bending: bend(0),
+                across: is_column.then(|| bend(1)),
+            }
+        });
         SpringMember {
-            length,
-            axial: stretch.map(|rigidity| {
-                let difference = difference(1.0, &b.moved[2], &a.moved[2]);
-                (rigidity / length, difference)
-            }),
-            torsion: (
-                section.torsional_rigidity / length,
-                difference(1.0, &b.turned[axis], &a.turned[axis]),
-            ),
-            bending: bend(0),
-            across: is_column.then(|| bend(1)),
+            torsion,
+            parts: parts.collect(),
         }
     }
 
-    /// How much longer a diagonal becomes: the difference of the displacements of its joints along it.
-    pub(super) fn elongation(&self, place: DiagonalPlace) -> Deformation {
+    /// How much longer a diagonal becomes: the difference of the displacements of its ends along it. `offsets`: how far from the joints
+    /// these are.
+    pub(super) fn elongation(&self, place: DiagonalPlace, offsets: [f64; 2]) -> Deformation {
         let Some(crossings) = place.crossings() else {
             return Deformation::new();
         };
         let level = place.storey - 1;
-        let [a, b] = [
+        let joints = [
             self.end(level.checked_sub(1), crossings[0]),
             self.end(Some(level), crossings[1]),
         ];
+        let height = self.heights[level];
+        let [lower, upper] = offsets;
+        let above = [lower, height - upper];
+        let ends: Vec<End> = (joints.into_iter().enumerate())
+            .map(|(end, joint)| match offsets[end] == 0.0 {
+                true => joint,
+                false => self.on_column(crossings[end], level, above[end]),
+            })
+            .collect();
         let [from, to] = crossings.map(|[x, y]| [self.frame.lines_x[x], self.frame.lines_y[y]]);
-        let way = [to[0] - from[0], to[1] - from[1], self.heights[level]];
+        let way = [to[0] - from[0], to[1] - from[1], above[1] - above[0]];
         let length = libm::hypot(libm::hypot(way[0], way[1]), way[2]);
         let mut deformation = Deformation::new();
         for (axis, part) in way.into_iter().enumerate() {
             if part != 0.0 {
+                let [a, b] = [&ends[0], &ends[1]];
                 deformation.extend(difference(part / length, &b.moved[axis], &a.moved[axis]));
             }
         }
         deformation
+    }
+
+    /// The point of a column that a strut meets; it does not move where there is none, which is a fault of the model.
+    fn on_column(&self, line: [usize; 2], storey: usize, above: f64) -> End {
+        let column = SpacePlace::Column { line, storey };
+        let mut members = self.frame.members.iter();
+        let Some((number, member)) =
+            (self.points.nearest(column, above)).zip(members.find(|member| member.place == column))
+        else {
+            return End::default();
+        };
+        let foot = self.end(storey.checked_sub(1), line);
+        let keeps_length = member.section.axial_rigidity.is_none();
+        Self::point(number, keeps_length.then_some(&foot.moved[2]))
     }
 
     /// K_jj, factorised, and columns of −K_jf replaced by those of R. `None` if joints move without resistance.
@@ -511,8 +599,12 @@ pub(super) fn condense(
         .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2]))
         .collect();
     let diagonals = frame.diagonals.iter();
-    let diagonals =
-        diagonals.map(|diagonal| (diagonal.stiffness, assembly.elongation(diagonal.place)));
+    let diagonals = diagonals.map(|diagonal| {
+        (
+            diagonal.stiffness,
+            assembly.elongation(diagonal.place, [0.0; 2]),
+        )
+    });
     let diagonals: Vec<(f64, Deformation)> = diagonals.collect();
     let all = springs.iter().flat_map(SpringMember::springs);
     let all = all.chain(diagonals.iter().map(|(k, d)| Spring::Single(*k, d.clone())));
@@ -529,8 +621,8 @@ pub(super) fn condense(
                         *value += share * motion[*joint];
                     }
                 }
-                // Frames with hinges, and those that rock, keep their joints.
-                Unknown::End(_) | Unknown::Rocking(_) => {}
+                // Frames with hinges or points between floors, and those that rock, keep their joints.
+                Unknown::End(_) | Unknown::Point(..) | Unknown::Rocking(_) => {}
             }
         }
         turn_row(&mut row, frame.direction);
@@ -558,12 +650,14 @@ pub(super) fn condense(
             add_product(&force, &deformation);
             force
         };
-        let axial = match &spring.axial {
+        // It is one part where no point between floors moves by itself.
+        let whole = &spring.parts[0];
+        let axial = match &whole.axial {
             Some((k, stretch)) => single(*k, stretch),
             None => vec![0.0; order],
         };
         let torsion = single(spring.torsion.0, &spring.torsion.1);
-        let is_column = spring.across.is_some();
+        let is_column = whole.across.is_some();
         // Slopes at both ends against the chord, and the moments that go with them.
         let mut bend = |([near, far], rotations): &([f64; 2], [Deformation; 2])| {
             let [a, b] = rotations.each_ref().map(&row);
@@ -577,15 +671,15 @@ pub(super) fn condense(
             let sign = if is_column { 1.0 } else { -1.0 };
             let sum = first.iter().zip(&last);
             Bending {
-                shear: sum.map(|(a, b)| -sign * (a + b) / spring.length).collect(),
+                shear: sum.map(|(a, b)| -sign * (a + b) / whole.length).collect(),
                 moments: [
                     first.iter().map(|value| sign * value).collect(),
                     last.iter().map(|value| -sign * value).collect(),
                 ],
             }
         };
-        let bending = bend(&spring.bending);
-        let across = spring.across.as_ref().map(&mut bend);
+        let bending = bend(&whole.bending);
+        let across = whole.across.as_ref().map(&mut bend);
         let storey = member.place.storey();
         members.push(CondensedMember {
             place: member.place,
@@ -618,20 +712,30 @@ pub(super) fn condense(
 }
 
 impl Assembly<'_> {
-    /// Diagonals that end at the head of a column, and what the column bears of the tension of each by vertical equilibrium.
-    pub(super) fn diagonals_at_head(&self, place: SpacePlace) -> Row {
+    /// Diagonals that end at a height of a column above its foot, or, at its whole height, at the joint at its head, and what the column
+    /// bears below of the tension of each by vertical equilibrium.
+    pub(super) fn diagonals_at(&self, place: SpacePlace, above: f64) -> Row {
         let [_, line] = place.crossings();
-        let floor = place.storey() + 1;
+        let storey = place.storey() + 1;
+        let height = self.heights[place.storey()];
+        let is_here = |at: f64| (at - above).abs() <= LEVEL_TOLERANCE;
         let ends = self.frame.diagonals.iter().enumerate();
         let ends = ends.filter_map(|(index, diagonal)| {
             let [lower, upper] = diagonal.place.crossings()?;
+            let [from, to] = diagonal.offsets;
+            let of_storey = diagonal.place.storey == storey;
+            // Ends at joints hang on the joint, those above it on the column above.
+            let starts = match from == 0.0 {
+                true => diagonal.place.storey == storey + 1 && is_here(height),
+                false => of_storey && is_here(from),
+            };
             let sign = match (lower == line, upper == line) {
-                (true, _) if diagonal.place.storey == floor + 1 => 1.0,
-                (_, true) if diagonal.place.storey == floor => -1.0,
+                (true, _) if starts => 1.0,
+                (_, true) if of_storey && is_here(height - to) => -1.0,
                 _ => return None,
             };
             let bay = self.frame.bays(diagonal.place.line?.along)[diagonal.place.bay - 1];
-            let rise = self.heights[diagonal.place.storey - 1];
+            let rise = self.heights[diagonal.place.storey - 1] - from - to;
             Some((index, sign * rise / libm::hypot(bay, rise)))
         });
         ends.collect()
@@ -702,7 +806,9 @@ fn carried_by_columns(
                 *sum += sign * value;
             }
         }
-        for &(index, share) in assembly.diagonals_at_head(members[column].place).entries() {
+        let head = assembly.heights[members[column].place.storey()];
+        let at_head = assembly.diagonals_at(members[column].place, head);
+        for &(index, share) in at_head.entries() {
             let stiffness = share * frame.diagonals[index].stiffness;
             for (sum, value) in axial.iter_mut().zip(&elongations[index]) {
                 *sum += stiffness * value;

@@ -25,19 +25,41 @@ pub struct JointedMember {
     pub place: SpacePlace,
     /// Heights of its ends above the base \[m\].
     pub heights: [f64; 2],
-    /// Length between its rigid ends \[m\].
-    pub length: f64,
-    /// Its element of axial force; `None` where it keeps its length.
-    pub axial: Option<usize>,
     /// Its element of torsion.
     pub torsion: usize,
-    /// Its elements of bending in the vertical plane along x of a column, in that of a beam, and in the plane across of a column.
-    pub bending: [Option<usize>; 2],
-    /// Diagonals that end at the head of a column which keeps its length, and what it bears of the tension of each.
-    pub diagonals: Row,
+    /// Its parts between points that move by themselves, upwards or from its first end to its last; the whole of most.
+    pub parts: Vec<JointedPart>,
     /// Share of the weight of its floor at the head of a column which keeps its length; zero unless the building stands under its
     /// weight \[N\].
     pub weight: f64,
+}
+
+/// A part of a member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointedPart {
+    /// The point of the column at its upper end, as an index of [`JointedFrame::points`]; `None` at a joint.
+    pub point: Option<usize>,
+    /// Its length, without rigid ends \[m\].
+    pub length: f64,
+    /// Its element of axial force; `None` where it keeps its length.
+    pub axial: Option<usize>,
+    /// Its elements of bending in the vertical plane along x of a column, in that of a beam, and in the plane across of a column.
+    pub bending: [Option<usize>; 2],
+    /// Diagonals that end at the upper end of a part which keeps its length, and what it bears of the tension of each.
+    pub diagonals: Row,
+}
+
+/// A point of a column between floors that moves by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointNode {
+    /// Its column.
+    pub column: SpacePlace,
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// Its mass \[kg\].
+    pub mass: f64,
+    /// The node of its displacements along and across.
+    pub node: usize,
 }
 
 /// A joint of a space frame with hinges.
@@ -58,6 +80,10 @@ pub struct JointedFrame {
     pub members: Vec<JointedMember>,
     /// Its joints, floor by floor.
     pub joints: Vec<JointNodes>,
+    /// Points of its columns between floors that move by themselves.
+    pub points: Vec<PointNode>,
+    /// Mass of every floor that these carry in its place; empty without any \[kg\].
+    pub taken: Vec<f64>,
 }
 
 /// A space frame in a stick model, with the places of its hinges and fibres.
@@ -66,8 +92,8 @@ pub(super) struct AddedJoints {
     pub(super) frame: JointedFrame,
     pub(super) places: Vec<SpringPlace>,
     pub(super) sections: Vec<FibreSection>,
-    /// Elongations of its diagonals, in their order.
-    pub(super) elongations: Vec<Row>,
+    /// Elongations of its diagonals, in their order, and of the lines between the joints of their bays.
+    pub(super) elongations: Vec<[Row; 2]>,
 }
 
 /// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already. `carried`: masses
@@ -84,12 +110,14 @@ pub(super) fn add_space_joints(
     let joint_nodes = add_joints(&assembly, sticks, floors);
     carry_floors(&assembly, sticks, (joint_nodes.start, floors), carried);
     sticks.eliminate_after_joints(moving.iter().copied(), floors[0]);
+    let points = add_points(&assembly, sticks, floors);
     let mut builder = Builder {
         assembly,
         sticks,
         ground,
         moving,
         joints: joint_nodes,
+        points,
         ends: Vec::new(),
         places: Vec::new(),
         sections: Vec::new(),
@@ -111,7 +139,7 @@ pub(super) fn add_space_joints(
             SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => [top; 2],
         };
         let keeps_length =
-            matches!(member.place, SpacePlace::Column { .. }) && member.axial.is_none();
+            matches!(member.place, SpacePlace::Column { .. }) && member.parts[0].axial.is_none();
         if let Some([mass, load]) = carried.get(storey).filter(|_| keeps_length) {
             let count = columns_of(frame, storey).count();
             member.weight = (mass * STANDARD_GRAVITY + load) / count as f64;
@@ -119,16 +147,28 @@ pub(super) fn add_space_joints(
     }
     let joints = builder.joint_list(frame);
     let elongations = frame.diagonals.iter().map(|diagonal| {
-        let elongation = builder.assembly.elongation(diagonal.place);
-        builder.over_nodes(&elongation, frame.direction)
+        [diagonal.offsets, [0.0; 2]].map(|offsets| {
+            let elongation = builder.assembly.elongation(diagonal.place, offsets);
+            builder.over_nodes(&elongation, frame.direction)
+        })
     });
     let elongations = elongations.collect();
+    let points = builder.point_list();
+    let taken = match points.is_empty() {
+        true => Vec::new(),
+        false => builder.assembly.points.taken,
+    };
     let (mut places, sections) = (builder.places, builder.sections);
     // Hinges come before all else that yields.
     places.extend(sections.iter().flat_map(FibreSection::places));
     sticks.space_ends = first_end..sticks.nodes.len();
     AddedJoints {
-        frame: JointedFrame { members, joints },
+        frame: JointedFrame {
+            members,
+            joints,
+            points,
+            taken,
+        },
         places,
         sections,
         elongations,
@@ -151,6 +191,76 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
         sticks.add_turning(Stage::Joints, unknown, height);
     }
     first..sticks.nodes.len()
+}
+
+/// Nodes of a point of a column.
+#[derive(Clone, Copy)]
+struct PointNodes {
+    /// Of its displacements along and across.
+    moving: usize,
+    /// Of its rise, unless the column keeps its length.
+    rising: Option<usize>,
+    /// Of its rotations about the lines.
+    turning: [usize; 2],
+}
+
+/// Adds the nodes of every point of a column.
+fn add_points(
+    assembly: &Assembly<'_>,
+    sticks: &mut StickModel,
+    floors: &[usize],
+) -> Vec<PointNodes> {
+    let mut found = Vec::with_capacity(assembly.points.all.len());
+    for point in &assembly.points.all {
+        let [line, _] = point.column.crossings();
+        let floor = floors[point.column.storey()];
+        let top = sticks.nodes[floor].y;
+        let height = top - assembly.heights[point.column.storey()] + point.above;
+        let number = sticks.nodes.len();
+        // About the centre of the floor above, along the axes of the site.
+        let [at, centre] = [
+            assembly.frame.point(line),
+            assembly
+                .frame
+                .on_site(assembly.centre_of_floor(point.column.storey())),
+        ];
+        let [x, y] = [0, 1].map(|axis| at[axis] - centre[axis]);
+        let [along, across, _] = Influence::OF_FLOOR;
+        sticks.nodes.push(Node {
+            mass: point.mass,
+            inertia: [point.mass, point.mass, 0.0],
+            influence: [
+                Influence {
+                    turning: -y,
+                    ..along
+                },
+                Influence {
+                    turning: x,
+                    ..across
+                },
+                Influence::NONE,
+            ],
+            ..Node::at(0.0, height).held(Support::Swaying)
+        });
+        let turn = Turn {
+            stage: Some(Stage::Joints),
+            height,
+            // Its mass moves with those of floors.
+            elevation: Turn::FLOORS,
+            position: number as f64,
+        };
+        sticks.turns.insert(number, turn);
+        let mut members = assembly.frame.members.iter();
+        let column = members.find(|member| member.place == point.column);
+        let stretches = column.is_some_and(|column| column.section.axial_rigidity.is_some());
+        let mut turning = || sticks.add_turning(Stage::Joints, sticks.nodes.len(), height);
+        found.push(PointNodes {
+            moving: number,
+            rising: stretches.then(&mut turning),
+            turning: [turning(), turning()],
+        });
+    }
+    found
 }
 
 /// Crossings at which columns stand below a floor, from 0.
@@ -254,6 +364,8 @@ struct Builder<'a> {
     moving: &'a [usize],
     /// Nodes of the unknowns of joints.
     joints: Range<usize>,
+    /// Nodes of points of columns, by their numbers.
+    points: Vec<PointNodes>,
     /// Nodes of member ends, by their numbers.
     ends: Vec<usize>,
     places: Vec<SpringPlace>,
@@ -267,14 +379,16 @@ impl Builder<'_> {
             self.add_hinges(member, plane, &mut ends);
         }
         self.add_fibres(member.place, &mut ends);
+        if self.assembly.points.of(member.place).next().is_some() {
+            for (plane, (_, axis, _)) in planes(member.place).iter().enumerate() {
+                let whole = self.assembly.double_curvature(member, plane);
+                let numbers = ends.iter().filter_map(|end| end[1 + axis]);
+                let nodes = numbers.map(|number| (self.ends[number], whole));
+                self.sticks.double_curvature.extend(nodes);
+            }
+        }
         let springs = self.assembly.springs(member.place, &member.section, ends);
-        let SpringMember {
-            length,
-            axial,
-            torsion,
-            bending,
-            across,
-        } = springs;
+        let SpringMember { torsion, parts } = springs;
         let row = |deformation: &Deformation| self.over_nodes(deformation, direction);
         let single = |(stiffness, deformation): &(f64, Deformation)| Element::Spring {
             part: Part::Elastic,
@@ -286,24 +400,49 @@ impl Builder<'_> {
             rows: ends.iter().map(row).collect(),
             lower: vec![*one, *other, *one],
         };
-        let diagonals = match (member.place, &axial) {
-            (SpacePlace::Column { .. }, None) => self.assembly.diagonals_at_head(member.place),
-            _ => Row::default(),
-        };
-        let (axial, torsion) = (axial.as_ref().map(single), single(&torsion));
-        let (bending, across) = (bend(&bending), across.as_ref().map(bend));
+        let is_column = matches!(member.place, SpacePlace::Column { .. });
+        let storey_height = self.assembly.heights[member.place.storey()];
+        let points = self.assembly.points.of(member.place);
+        let tops = points.map(|(number, point)| (Some(number), point.above));
+        let tops: Vec<(Option<usize>, f64)> = tops.chain([(None, storey_height)]).collect();
+        let axial: Vec<Option<Element>> = parts
+            .iter()
+            .map(|part| part.axial.as_ref().map(single))
+            .collect();
+        let torsion = single(&torsion);
+        let bending: Vec<[Option<Element>; 2]> = parts
+            .iter()
+            .map(|part| [Some(bend(&part.bending)), part.across.as_ref().map(bend)])
+            .collect();
         let mut add = |element: Element| {
             self.sticks.space_elements.push(element);
             self.sticks.space_elements.len() - 1
         };
+        let axial: Vec<Option<usize>> = axial
+            .into_iter()
+            .map(|element| element.map(&mut add))
+            .collect();
+        let torsion = add(torsion);
+        let bending: Vec<[Option<usize>; 2]> = bending
+            .into_iter()
+            .map(|planes| planes.map(|element| element.map(&mut add)))
+            .collect();
+        let parts = parts.iter().zip(tops).zip(axial.into_iter().zip(bending));
+        let parts = parts.map(|((part, (point, above)), (axial, bending))| JointedPart {
+            point,
+            length: part.length,
+            axial,
+            bending,
+            diagonals: match is_column && axial.is_none() {
+                true => self.assembly.diagonals_at(member.place, above),
+                false => Row::default(),
+            },
+        });
         JointedMember {
             place: member.place,
             heights: [0.0; 2],
-            length,
-            axial: axial.map(&mut add),
-            torsion: add(torsion),
-            bending: [Some(add(bending)), across.map(&mut add)],
-            diagonals,
+            parts: parts.collect(),
+            torsion,
             weight: 0.0,
         }
     }
@@ -410,6 +549,27 @@ impl Builder<'_> {
             match *unknown {
                 Unknown::Joint(index) => add((self.joints.start + index, THETA), *share),
                 Unknown::End(index) => add((self.ends[index], THETA), *share),
+                Unknown::Point(number, motion) => {
+                    let PointNodes {
+                        moving,
+                        rising,
+                        turning,
+                    } = self.points[number];
+                    match motion {
+                        0 => {
+                            add((moving, X), c * share);
+                            add((moving, Y), s * share);
+                        }
+                        1 => {
+                            add((moving, X), -s * share);
+                            add((moving, Y), c * share);
+                        }
+                        2 => rising
+                            .into_iter()
+                            .for_each(|rising| add((rising, THETA), *share)),
+                        _ => add((turning[motion - 3], THETA), *share),
+                    }
+                }
                 Unknown::Rocking(direction) => {
                     let rocking = self
                         .sticks
@@ -439,6 +599,17 @@ impl Builder<'_> {
             }
         }
         over_nodes(list.into_iter().filter(|(_, share)| *share != 0.0))
+    }
+
+    fn point_list(&self) -> Vec<PointNode> {
+        let all = self.assembly.points.all.iter().zip(&self.points);
+        let points = all.map(|(point, nodes)| PointNode {
+            column: point.column,
+            height: self.sticks.nodes[nodes.moving].y,
+            mass: point.mass,
+            node: nodes.moving,
+        });
+        points.collect()
     }
 
     fn joint_list(&self, frame: &SpaceFrame) -> Vec<JointNodes> {

@@ -5,7 +5,7 @@ use super::member_forces::{
     LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections, SectionAt,
 };
 use super::space_frame::CondensedFrame;
-use super::space_joints::{JointedFrame, JointedMember};
+use super::space_joints::{JointedFrame, JointedMember, JointedPart};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::wall_forces::WallForce;
 use crate::linear::sort_by_key;
@@ -15,7 +15,6 @@ use crate::structure::AssembledBuilding;
 impl MemberForces {
     /// Adds the members of a space frame: their forces follow from the motions of the mat and of the floors.
     pub(super) fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
-        let equations = &building.equations;
         let floors = &building.discretization.floors;
         let dofs = motions_of_floors(building);
         let nothing = self.index_of(LinearForm::default());
@@ -48,7 +47,7 @@ impl MemberForces {
                 MemberSection {
                     at,
                     height: member.heights[side],
-                    dof: floor.and_then(|floor| equations.horizontal(floors[floor])),
+                    dofs: floor.map_or([None; 2], |floor| building.horizontal_dofs(floors[floor])),
                     forms: [axial, shear, moment],
                     across: Some([
                         shear_across.unwrap_or(nothing),
@@ -101,6 +100,8 @@ impl MemberForces {
                 number: index + 1,
                 hinge: foot,
                 upper_hinges: upper.filter(|upper| *upper != foot).collect(),
+                foot_section: None,
+                sections: Vec::new(),
                 sliding: None,
                 axial,
                 moment,
@@ -109,46 +110,89 @@ impl MemberForces {
         }
     }
 
-    /// Adds the members of a space frame with hinges. Moments at hinges are those of the hinges.
-    pub(super) fn add_jointed_frame(&mut self, building: &AssembledBuilding, frame: &JointedFrame) {
+    /// Adds the members of a space frame with hinges or points between floors. Moments at hinges are those of the hinges. `struck` tells
+    /// whether a neighbour can strike the node with one of these displacements of the building.
+    pub(super) fn add_jointed_frame(
+        &mut self,
+        building: &AssembledBuilding,
+        frame: &JointedFrame,
+        struck: impl Fn(usize) -> bool,
+    ) {
         let cuts = JointedCuts { building, frame };
         let floors = &building.discretization.floors;
-        let bending = frame.members.iter().map(|member| cuts.bending(member));
-        let bending: Vec<[Option<PlaneForces>; 2]> = bending.collect();
+        let bending = cuts.all_bending();
         let axial = cuts.axial(&bending);
-        for ((member, planes), axial) in frame.members.iter().zip(bending).zip(axial) {
-            let axial = self.index_of(axial);
+        for ((member, parts), axial) in frame.members.iter().zip(bending).zip(axial) {
             let torque = cuts.forces(member.torsion)[0].clone();
             let torque = self.index_of(torque);
-            let place = MemberPlace::InSpace(member.place);
-            let indices = planes.map(|plane| {
-                let plane = plane.unwrap_or_default();
-                let shear = self.index_of(plane.shear);
-                (shear, plane.moments.map(|form| self.index_of(form)))
-            });
-            let level = member.place.storey();
-            let [(shear, moments), (shear_across, moments_across)] = indices;
-            let sections = [SectionAt::First, SectionAt::Last].into_iter().enumerate();
-            let sections = sections.map(|(side, at)| {
-                let floor = match (place.is_column(), side) {
-                    (true, 0) => level.checked_sub(1),
-                    _ => Some(level),
-                };
+            let axial: Vec<usize> = axial.into_iter().map(|form| self.index_of(form)).collect();
+            let parts: Vec<_> = parts
+                .into_iter()
+                .map(|planes| {
+                    planes.map(|plane| {
+                        let plane = plane.unwrap_or_default();
+                        let shear = self.index_of(plane.shear);
+                        (shear, plane.moments.map(|form| self.index_of(form)))
+                    })
+                })
+                .collect();
+            let section = |at: SectionAt, part: usize, height: f64, dofs: [Option<usize>; 2]| {
+                let side = usize::from(matches!(at, SectionAt::Last | SectionAt::Below));
+                let [(shear, moments), (shear_across, moments_across)] = parts[part];
                 MemberSection {
                     at,
-                    height: member.heights[side],
-                    dof: floor.and_then(|floor| building.equations.horizontal(floors[floor])),
-                    forms: [axial, shear, moments[side]],
+                    height,
+                    dofs,
+                    forms: [axial[part], shear, moments[side]],
                     across: Some([shear_across, moments_across[side], torque]),
                 }
-            });
+            };
+            let place = MemberPlace::InSpace(member.place);
+            let level = member.place.storey();
+            let below = match place.is_column() {
+                true => level.checked_sub(1),
+                false => Some(level),
+            };
+            let of_floor = |floor: Option<usize>| {
+                let node = floor.map(|floor| floors[floor]);
+                node.map_or([None; 2], |node| building.horizontal_dofs(node))
+            };
+            let [first, last] = member.heights;
+            let mut sections = vec![
+                section(SectionAt::First, 0, first, of_floor(below)),
+                section(
+                    SectionAt::Last,
+                    parts.len() - 1,
+                    last,
+                    of_floor(Some(level)),
+                ),
+            ];
+            for (index, part) in member.parts.iter().enumerate() {
+                let Some(point) = part.point.map(|point| frame.points[point]) else {
+                    continue;
+                };
+                let dofs = building.horizontal_dofs(point.node);
+                if dofs.into_iter().flatten().any(&struck) {
+                    sections.push(section(SectionAt::Below, index, point.height, dofs));
+                    sections.push(section(SectionAt::Above, index + 1, point.height, dofs));
+                }
+            }
             self.members.push(MemberSections {
                 frame: None,
                 place,
-                sections: sections.collect(),
+                sections,
                 shared: None,
             });
         }
+    }
+}
+
+impl AssembledBuilding {
+    /// Displacements of a node along the row and, in plan, across.
+    pub(super) fn horizontal_dofs(&self, node: usize) -> [Option<usize>; 2] {
+        let second = &self.discretization.stick_model.nodes[node].influence[Y];
+        let dof = |component| self.equations.dof((node, component));
+        [dof(X), dof(Y).filter(|_| second.across != 0.0)]
     }
 }
 
@@ -209,13 +253,12 @@ fn of_jointed_wall(
     rises: [Option<usize>; 2],
 ) -> Option<[LinearForm; 3]> {
     let cuts = JointedCuts { building, frame };
-    let bending = frame.members.iter().map(|member| cuts.bending(member));
-    let bending: Vec<[Option<PlaneForces>; 2]> = bending.collect();
+    let bending = cuts.all_bending();
     let index = frame
         .members
         .iter()
         .position(|member| member.place == foot)?;
-    let plane = bending[index][wall.along.index()].as_ref()?;
+    let plane = bending[index][0][wall.along.index()].as_ref()?;
     let mut elongation = LinearForm::default();
     for (floor, sign) in rises.into_iter().zip([-1.0, 1.0]) {
         let joint = floor.and_then(|floor| {
@@ -228,7 +271,7 @@ fn of_jointed_wall(
             elongation.displacement.add(dof, sign);
         }
     }
-    let axial = cuts.axial(&bending).swap_remove(index);
+    let axial = cuts.axial(&bending).swap_remove(index).swap_remove(0);
     Some([axial, plane.moments[0].clone(), elongation])
 }
 
@@ -238,6 +281,9 @@ struct PlaneForces {
     shear: LinearForm,
     moments: [LinearForm; 2],
 }
+
+/// Those in both planes of every part of a member.
+type PartForces = Vec<[Option<PlaneForces>; 2]>;
 
 /// A space frame with hinges, ready to be cut.
 struct JointedCuts<'a> {
@@ -265,7 +311,13 @@ impl JointedCuts<'_> {
         (0..deformations.len()).map(force).collect()
     }
 
-    fn bending(&self, member: &JointedMember) -> [Option<PlaneForces>; 2] {
+    /// Of every part of every member.
+    fn all_bending(&self) -> Vec<PartForces> {
+        let members = self.frame.members.iter();
+        members.map(|member| self.bending(member)).collect()
+    }
+
+    fn bending(&self, member: &JointedMember) -> PartForces {
         let is_column = matches!(member.place, SpacePlace::Column { .. });
         let sign = if is_column { 1.0 } else { -1.0 };
         let places = &self.building.discretization.spring_places;
@@ -281,45 +333,55 @@ impl JointedCuts<'_> {
             };
             places.iter().position(|place| *place == space)
         };
-        [0, 1].map(|plane| {
-            let forces = self.forces(member.bending[plane]?);
-            let [first, last] = &forces[..] else {
-                return None;
-            };
-            let mut shear = LinearForm::default();
-            for end_moment in [first, last] {
-                shear.add(-sign / member.length, end_moment);
-            }
-            let moment = |end: MemberEnd, end_moment: &LinearForm, sign: f64| {
-                let mut form = LinearForm::default();
-                match hinge(end, plane) {
-                    Some(spring) => form.springs.add(spring, 1.0),
-                    None => form.add(sign, end_moment),
+        let last_part = member.parts.len() - 1;
+        let of_part = |(index, part): (usize, &JointedPart)| {
+            [0, 1].map(|plane| {
+                let forces = self.forces(part.bending[plane]?);
+                let [first, last] = &forces[..] else {
+                    return None;
+                };
+                let mut shear = LinearForm::default();
+                for end_moment in [first, last] {
+                    shear.add(-sign / part.length, end_moment);
                 }
-                form
-            };
-            Some(PlaneForces {
-                shear: shear.tidy(),
-                moments: [
-                    moment(MemberEnd::First, first, sign),
-                    moment(MemberEnd::Last, last, -sign),
-                ],
+                let moment = |end: MemberEnd, end_moment: &LinearForm, sign: f64| {
+                    let mut form = LinearForm::default();
+                    let is_end = match end {
+                        MemberEnd::First => index == 0,
+                        MemberEnd::Last => index == last_part,
+                    };
+                    match hinge(end, plane).filter(|_| is_end) {
+                        Some(spring) => form.springs.add(spring, 1.0),
+                        None => form.add(sign, end_moment),
+                    }
+                    form
+                };
+                Some(PlaneForces {
+                    shear: shear.tidy(),
+                    moments: [
+                        moment(MemberEnd::First, first, sign),
+                        moment(MemberEnd::Last, last, -sign),
+                    ],
+                })
             })
-        })
+        };
+        member.parts.iter().enumerate().map(of_part).collect()
     }
 
-    /// Axial forces of all members. A column that keeps its length carries the one above it, the shears of the beams, the pull of the
-    /// diagonals and its share of the weight of the floor at its head.
-    fn axial(&self, bending: &[[Option<PlaneForces>; 2]]) -> Vec<LinearForm> {
+    /// Axial forces of all members, part by part. A column that keeps its length carries the one above it, the shears of the beams, the pull
+    /// of the diagonals and its share of the weight of the floor at its head.
+    fn axial(&self, bending: &[PartForces]) -> Vec<Vec<LinearForm>> {
         let members = &self.frame.members;
-        let of_stretch = |member: &JointedMember| {
-            let forces = member.axial.map(|element| self.forces(element));
+        let of_stretch = |part: &JointedPart| {
+            let forces = part.axial.map(|element| self.forces(element));
             forces.map_or_else(LinearForm::default, |mut force| force.swap_remove(0))
         };
-        let mut axial: Vec<LinearForm> = members.iter().map(of_stretch).collect();
+        let of_parts = |member: &JointedMember| member.parts.iter().map(of_stretch).collect();
+        let mut axial: Vec<Vec<LinearForm>> = members.iter().map(of_parts).collect();
         let is_column = |place: SpacePlace| matches!(place, SpacePlace::Column { .. });
+        let keeps_length = |member: &JointedMember| member.parts[0].axial.is_none();
         let mut rigid: Vec<usize> = (0..members.len())
-            .filter(|index| is_column(members[*index].place) && members[*index].axial.is_none())
+            .filter(|index| is_column(members[*index].place) && keeps_length(&members[*index]))
             .collect();
         sort_by_key(&mut rigid, |index| {
             std::cmp::Reverse(members[*index].place.storey())
@@ -332,10 +394,10 @@ impl JointedCuts<'_> {
                 let [first, last] = other.place.crossings();
                 if is_column(other.place) {
                     if first == line && other.place.storey() == storey + 1 {
-                        sum.add(1.0, &axial[index]);
+                        sum.add(1.0, &axial[index][0]);
                     }
                 } else if other.place.storey() == storey
-                    && let Some(plane) = &bending[index][0]
+                    && let Some(plane) = &bending[index][0][0]
                 {
                     if first == line {
                         sum.add(-1.0, &plane.shear);
@@ -344,11 +406,16 @@ impl JointedCuts<'_> {
                     }
                 }
             }
-            for (diagonal, share) in members[column].diagonals.entries() {
-                sum.add(*share, &self.building.force_of_diagonal(*diagonal));
+            for (index, part) in members[column].parts.iter().enumerate().rev() {
+                for (diagonal, share) in part.diagonals.entries() {
+                    sum.add(*share, &self.building.force_of_diagonal(*diagonal));
+                }
+                if part.point.is_none() {
+                    sum.constant -= members[column].weight;
+                }
+                sum = sum.tidy();
+                axial[column][index] = sum.clone();
             }
-            sum.constant -= members[column].weight;
-            axial[column] = sum.tidy();
         }
         axial
     }

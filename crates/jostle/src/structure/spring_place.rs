@@ -3,7 +3,7 @@
 use super::diagonals::FrameDiagonal;
 use super::member_forces::MemberPlace;
 use crate::hysteresis::{ForceRow, Side};
-use crate::model::{DiagonalKind, DiagonalPlace, PlanAxis, Rise, SpacePlace, StrutLine};
+use crate::model::{DiagonalKind, DiagonalPlace, PlanAxis, Reach, Rise, SpacePlace, StrutLine};
 
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -377,6 +377,11 @@ fn in_words(place: DiagonalPlace) -> String {
         DiagonalKind::Infill => "infill strut",
     };
     let Some(line) = place.line else {
+        if place.reach != Reach::BAY {
+            let ([from, to], [low, high]) = (place.lines(), place.floors());
+            let (from, to) = (from + 1, to + 1);
+            return format!("{kind}, floor {low}, line {from} to floor {high}, line {to}");
+        }
         let towards = match place.rise {
             Rise::Right => "right",
             Rise::Left => "left",

@@ -26,6 +26,8 @@ pub struct StickModel {
     pub space_elements: Vec<Element>,
     /// Nodes that are rotations of member ends beyond hinges.
     pub space_ends: Range<usize>,
+    /// Of those of columns with points between floors: stiffness of the whole column in double curvature \[N·m/rad\].
+    pub double_curvature: BTreeMap<usize, f64>,
     /// Springs over any displacements that yield, such as columns and walls at points of a plan.
     pub yielding: Vec<YieldingElement>,
     /// The mat of an isolated building in plan.

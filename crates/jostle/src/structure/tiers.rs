@@ -1,7 +1,9 @@
 //! A shear building in space as lumped masses and entries of its matrix.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::column_points::{ColumnPoints, lightened};
 use super::diagonals::FrameDiagonal;
 use super::discretization::Discretization;
 use super::element::{Part, THETA, X, Y, over_nodes};
@@ -12,7 +14,9 @@ use super::space_frame::{Assembly, condense};
 use super::space_joints::{AddedJoints, add_space_joints};
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, StickModel, Support, YieldingElement};
-use crate::model::{Base, Gravity, LumpedFloor, PlanPoint, ProportionalDamping, SpaceFrame, Tiers};
+use crate::model::{
+    Base, Gravity, LumpedFloor, PlanPoint, ProportionalDamping, SpaceFrame, SpacePlace, Tiers,
+};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
 pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
@@ -21,9 +25,22 @@ pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
 }
 
 /// The lumped masses and the stiffness of a building; with P-Delta, what the weight above every storey takes from it.
-pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> Discretization {
+/// `struck`: heights on columns above their feet at which they can be struck.
+pub(super) fn discretize_tiers(
+    tiers: &Tiers,
+    gravity: Gravity,
+    base: &Base,
+    struck: &BTreeMap<SpacePlace, Vec<f64>>,
+) -> Discretization {
     let mut stick_model = StickModel::default();
+    let points = tiers.space_frame.as_ref();
+    let points = points.map(|frame| ColumnPoints::new(frame, &tiers.storey_heights, struck));
+    let points = points.unwrap_or_default();
     let lumped = tiers.lumped_floors();
+    let mut lighter = lumped.clone();
+    if !points.all.is_empty() {
+        lightened(&mut lighter, &points.taken);
+    }
     let mut height = 0.0;
     let mut add = |node: Node| {
         stick_model.nodes.push(Node {
@@ -36,7 +53,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     let mat = tiers.carrier(base);
     let foot = mat.as_ref().map_or(ground, |mat| add(of_floor(0.0, mat)));
     let mut floors = Vec::with_capacity(tiers.floors.len());
-    for (floor, storey_height) in lumped.iter().zip(&tiers.storey_heights) {
+    for (floor, storey_height) in lighter.iter().zip(&tiers.storey_heights) {
         height += storey_height;
         floors.push(add(of_floor(height, floor)));
     }
@@ -54,10 +71,12 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
             matrix.add_storey(&moving, first + index, &taken, Part::Undamped);
         }
     }
-    // Joints follow the floors until a hinge yields; what they carry moves them as well. What stands on a base that rocks rises with it.
+    // Joints follow the floors until a hinge yields, and without points between floors; what they carry moves them as well. What stands on
+    // a base that rocks rises with it.
     let rocks = base.rocks_in_plan();
     let carries = gravity.preload || rocks;
-    let follows = |frame: &&SpaceFrame| !frame.may_yield() && !carries;
+    let has_points = !points.all.is_empty();
+    let follows = |frame: &&SpaceFrame| !frame.may_yield() && !carries && !has_points;
     let following = tiers.space_frame.as_ref().filter(follows);
     let condensed = following.and_then(|frame| {
         let condense = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
@@ -88,6 +107,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
             .plan_base
             .filter(|plan_base| plan_base.rocking.is_some());
         let assembly = assembly.rocking_about(base.map(|base| (base.middle, base.rises)));
+        let assembly = assembly.with_points(points.clone());
         let floors = tiers.floors.iter().enumerate();
         let weights = floors.map(|(floor, tier)| [tier.mass, tiers.floor_load(floor)]);
         let carried: Vec<[f64; 2]> = weights.filter(|_| carries).collect();
@@ -149,21 +169,26 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
             let motions = nodes
                 .iter()
                 .flat_map(|node| [X, Y, THETA].map(|c| (*node, c)));
-            over_nodes(motions.zip(following).filter(|(_, share)| *share != 0.0))
+            let row = over_nodes(motions.zip(following).filter(|(_, share)| *share != 0.0));
+            [row.clone(), row]
         });
         let level = |level: usize| match level.checked_sub(1) {
             Some(floor) => discretization.floors[floor],
             None => foot,
         };
         let elongations = of_floors.chain(joints.elongations);
-        let found = frame
-            .diagonals
-            .iter()
-            .zip(elongations)
-            .map(|(diagonal, row)| {
-                let ends = [diagonal.place.storey - 1, diagonal.place.storey].map(level);
-                FrameDiagonal::new(diagonal, ends, row).in_space(frame.direction)
-            });
+        let found =
+            frame
+                .diagonals
+                .iter()
+                .zip(elongations)
+                .map(|(diagonal, [row, between_joints])| {
+                    let ends = diagonal.place.floors().map(level);
+                    FrameDiagonal {
+                        between_joints,
+                        ..FrameDiagonal::new(diagonal, ends, row).in_space(frame.direction)
+                    }
+                });
         for space in found.collect::<Vec<_>>() {
             match follows_floors {
                 // The stiffness of the frame includes it.

@@ -28,6 +28,10 @@ pub struct WallForce {
     pub hinge: SpringPlace,
     /// Where it turns above.
     pub upper_hinges: Vec<SpringPlace>,
+    /// Its foot, if that is made of fibres: index among [`crate::structure::Discretization::sections`].
+    pub foot_section: Option<usize>,
+    /// All its ends that are made of fibres, likewise.
+    pub sections: Vec<usize>,
     /// Where it slides, if it yields there.
     pub sliding: Option<SpringPlace>,
     /// Axial force, positive in tension.
@@ -103,6 +107,18 @@ impl MemberForces {
                     false => hinge(end_hinge.storey, MemberEnd::First),
                 });
             let foot_hinge = hinge(storey, MemberEnd::First);
+            let [first, last] = frame_wall.part.storeys;
+            let sections: Vec<usize> = (0..discretization.sections.len())
+                .filter(|section| {
+                    let member = discretization.sections[*section].member;
+                    let of_wall = |storey| member == MemberPlace::Column { line, storey };
+                    frame_wall.frame.is_none() && (first..=last).any(of_wall)
+                })
+                .collect();
+            let at_foot = |section: &&usize| {
+                let section = &discretization.sections[**section];
+                (section.member, section.end) == (place, MemberEnd::First)
+            };
             self.walls.push(WallForce {
                 upper_hinges: upper.filter(|upper| *upper != foot_hinge).collect(),
                 frame: frame_wall.frame,
@@ -110,6 +126,8 @@ impl MemberForces {
                     .filter(|other| other.frame == frame_wall.frame)
                     .count(),
                 hinge: foot_hinge,
+                foot_section: sections.iter().find(at_foot).copied(),
+                sections,
                 sliding: Some(SpringPlace::sliding(place)),
                 axial,
                 moment,

@@ -9,14 +9,14 @@ use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean, set_back};
 use crate::interface::{
     Contact, Coulomb, EdgeEnd, Friction, JoinedPoints, LinkElement, PlanPlace, Port, PortPair,
-    PushedFloor, faces_of_gap, narrowest, sticking_stiffness, unique_below,
+    PushedFloor, Touched, faces_of_gap, narrowest, sticking_stiffness, unique_below,
 };
 use crate::linear::{Row, sort_by};
 use crate::model::{
     Base, Building, Damping, FloorPairs, Foundation, LEVEL_TOLERANCE, Level, Link, LinkLaw,
-    LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
+    LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure, Tier,
 };
-use crate::structure::{Discretization, InnerLink, LinkEnd};
+use crate::structure::{Discretization, InnerLink, LinkEnd, PointNode, StruckPoints, lightened};
 
 impl System {
     /// Assembles a model.
@@ -31,8 +31,7 @@ impl System {
         let mut foundations: Vec<(usize, FoundationPlace)> = Vec::new();
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
-            let points = row.points_between_floors(model, index);
-            let points = points.each_ref().map(|points| &points[..]);
+            let points = &row.struck_points(model, index);
             let number = foundations.len();
             let has_plan = matches!(building.structure, Structure::Tiers(_));
             let plane_base = Some(&building.base).filter(|_| !has_plan);
@@ -218,7 +217,7 @@ impl System {
             if model.is_in_space() {
                 let first = self.contacts.last().and_then(|last| last.plan);
                 let first = first.map_or(0, |place| place.face + 1);
-                let (contacts, ends) = plan_contacts(self, model, index, first);
+                let (contacts, ends) = plan_contacts(self, model, index, first, &mut faults);
                 self.contacts.extend(contacts);
                 self.edge_ends.extend(ends);
                 continue;
@@ -320,7 +319,7 @@ impl System {
 fn fixed(
     model: &Model,
     index: usize,
-    points: [&[f64]; 2],
+    points: &StruckPoints,
     on_mat: bool,
 ) -> Result<BuildingSystem, (&'static str, String)> {
     let fixed = Building {
@@ -397,6 +396,7 @@ fn plan_contacts(
     model: &Model,
     index: usize,
     first: usize,
+    faults: &mut Vec<ModelFault>,
 ) -> (Vec<Contact>, Vec<EdgeEnd>) {
     let gap = &model.gaps[index];
     let [Some(a), Some(b)] = gap.between else {
@@ -415,7 +415,12 @@ fn plan_contacts(
             .isolation
             .map_or(0.0, |isolation| isolation.mat_mass);
         let mut all = vec![tiers.mat(mat)];
-        all.extend(tiers.lumped_floors());
+        let mut lumped = tiers.lumped_floors();
+        let frame = &system.buildings[side].discretization.jointed_frame;
+        if let Some(frame) = frame.as_ref().filter(|frame| !frame.taken.is_empty()) {
+            lightened(&mut lumped, &frame.taken);
+        }
+        all.extend(lumped);
         all
     };
     let (one, other) = (floors(a), floors(b));
@@ -423,7 +428,25 @@ fn plan_contacts(
     let narrowest = narrowest(&found).unwrap_or_default();
     let wider = gap.width() - narrowest;
     let (mut contacts, mut ends) = (Vec::new(), Vec::new());
-    for (number, ([i, j], face)) in found.iter().enumerate() {
+    for (number, (touched, face)) in found.iter().enumerate() {
+        let sides = [(a, touched[0], &one), (b, touched[1], &other)];
+        let pushed = sides.map(|(side, touched, floors)| match touched {
+            Touched::Floor(floor) => Ok(floors.get(floor).cloned()),
+            Touched::Column(column, above) => {
+                let point = system.buildings[side].column_point(column, above)?;
+                Ok(Some(point_as_floor(point, face.middle)))
+            }
+        });
+        let [one, other] = match pushed {
+            [Ok(one), Ok(other)] => [one, other],
+            [Err(problem), _] | [_, Err(problem)] => {
+                faults.push(ModelFault {
+                    path: format!("gap[{index}].floors"),
+                    problem,
+                });
+                continue;
+            }
+        };
         let moving = |floor: &LumpedFloor| {
             let tier = &floor.tier;
             let arm = [
@@ -439,7 +462,7 @@ fn plan_contacts(
             (None, Some((_, wall))) => wall.equations.mass[0],
             (None, None) => f64::INFINITY,
         };
-        let masses = [mass_of(a, one.get(*i)), mass_of(b, other.get(*j))];
+        let masses = [mass_of(a, one.as_ref()), mass_of(b, other.as_ref())];
         let whole = match gap.in_plan.per_length {
             true if face.overlap > 0.0 => gap.law.stiffness * face.overlap,
             _ => gap.law.stiffness,
@@ -452,14 +475,20 @@ fn plan_contacts(
             sticking_stiffness(&law, effective_mass(masses[0], masses[1]))
         });
         // That of the floor beside a wall, which has none.
-        let beside = [(a, *i), (b, *j)].into_iter().filter_map(|(side, floor)| {
+        let beside = [(a, touched[0]), (b, touched[1])];
+        let beside = beside.into_iter().filter_map(|(side, touched)| {
             let structure = system.structures().get(side)?;
-            let floor = structure.floors.get(floor.checked_sub(1)?)?;
-            Some(floor.height + structure.discretization.elevation)
+            let height = match touched {
+                Touched::Floor(floor) => structure.floors.get(floor.checked_sub(1)?)?.height,
+                Touched::Column(column, above) => {
+                    structure.column_point(column, above).ok()?.height
+                }
+            };
+            Some(height + structure.discretization.elevation)
         });
         let beside = beside.reduce(f64::max).unwrap_or_default();
         for point in &face.points {
-            let port = |building: usize, floor: usize, mass: f64, direction: PlanPoint| {
+            let port = |building: usize, touched: Touched, mass: f64, direction: PlanPoint| {
                 if building >= model.buildings.len() {
                     // Every point of a wall moves alike; friction along it moves nothing.
                     let (building, wall_system) = wall(building)?;
@@ -475,26 +504,33 @@ fn plan_contacts(
                     });
                 }
                 let building_system = system.buildings.get(building)?;
-                let (row, height) = match (floor.checked_sub(1), &building_system.mat_in_plan) {
-                    (Some(index), _) => {
-                        let row = building_system.row_at(index, point.at, direction);
-                        (row, building_system.floors[index].height)
+                let (floor, row, height) = match (touched, &building_system.mat_in_plan) {
+                    (Touched::Floor(0), mat) => {
+                        (Some(0), mat.as_ref()?.row_at(point.at, direction), 0.0)
                     }
-                    (None, mat) => (mat.as_ref()?.row_at(point.at, direction), 0.0),
+                    (Touched::Floor(floor), _) => {
+                        let row = building_system.row_at(floor - 1, point.at, direction);
+                        (Some(floor), row, building_system.floors[floor - 1].height)
+                    }
+                    (Touched::Column(column, above), _) => {
+                        let node = building_system.column_point(column, above).ok()?;
+                        let row = building_system.row_of_point(node, direction);
+                        (None, row, node.height)
+                    }
                 };
                 Some(Port {
                     building,
                     row,
                     mass: point.share * mass,
-                    floor: Some(floor),
+                    floor,
                     height,
                     level: height + building_system.discretization.elevation,
                 })
             };
             let ports = |direction| {
                 PortPair([
-                    port(a, *i, masses[0], direction),
-                    port(b, *j, masses[1], direction),
+                    port(a, touched[0], masses[0], direction),
+                    port(b, touched[1], masses[1], direction),
                 ])
             };
             ends.extend(face.ends.iter().map(|end| EdgeEnd {
@@ -504,8 +540,7 @@ fn plan_contacts(
             }));
             let along = [-face.normal[1], face.normal[0]];
             let friction = (gap.in_plan.friction > 0.0).then(|| {
-                let pushed = [one.get(*i), other.get(*j)];
-                let pushed = pushed.into_iter().flatten();
+                let pushed = [&one, &other].into_iter().flatten();
                 Friction {
                     law: Coulomb {
                         coefficient: gap.in_plan.friction,
@@ -539,6 +574,16 @@ fn plan_contacts(
         }
     }
     (contacts, ends)
+}
+
+/// A point of a column as a floor that does not turn.
+fn point_as_floor(point: &PointNode, at: PlanPoint) -> LumpedFloor {
+    LumpedFloor::rigid(&Tier {
+        mass: point.mass,
+        polar_mass: f64::INFINITY,
+        centre: at,
+        plan: Vec::new(),
+    })
 }
 
 /// A floor as a point sees it that pushes along the normal of a face and along the face.

@@ -16,14 +16,15 @@ use crate::eigen::{
 };
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
-use crate::model::{Building, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY};
+use crate::model::{Building, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY, SpacePlace};
 use crate::motion::Ground;
 use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::element::{THETA, X, Y, over_nodes};
 use crate::structure::motion_at;
 use crate::structure::{
-    AssembledBuilding, AtRest, Discretization, InnerLink, MemberForces, PlanBase, SpringPlace,
+    AssembledBuilding, AtRest, Discretization, InnerLink, MemberForces, PlanBase, PointNode,
+    SpringPlace,
 };
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -594,6 +595,44 @@ impl BuildingSystem {
         let n = self.floors.len();
         let dofs = [0, 1, 2].map(|block| self.tracks[block * n + floor].dof);
         self.point(floor, dofs, at, direction)
+    }
+
+    /// The point of a column of its space frame, so far above the joint at its foot.
+    ///
+    /// # Errors
+    /// Points that cannot be struck.
+    pub(crate) fn column_point(
+        &self,
+        column: SpacePlace,
+        above: f64,
+    ) -> Result<&PointNode, String> {
+        let name = format!("{}.{column}", self.name);
+        let floor = &self.floors[column.storey()];
+        let height = floor.height - floor.storey_height + above;
+        let frame = self.discretization.jointed_frame.as_deref();
+        let mut points = frame.iter().flat_map(|frame| &frame.points);
+        let point = points.find(|point| {
+            point.column == column && (point.height - height).abs() <= LEVEL_TOLERANCE
+        });
+        let point = point.ok_or_else(|| {
+            format!(
+                "no point to hit on {name} at {height:.3} m: the end of the column is rigid there; leave rigid_ends out, or make them shorter"
+            )
+        })?;
+        match point.mass > 0.0 {
+            true => Ok(point),
+            false => Err(format!(
+                "{name} has no mass where it would be hit; give its section a mass per length"
+            )),
+        }
+    }
+
+    /// The displacement of such a point in a direction, over the vectors of a [`crate::State`].
+    pub(crate) fn row_of_point(&self, point: &PointNode, direction: [f64; 2]) -> Row {
+        let moved = [X, Y].into_iter().zip(direction);
+        let moved = moved.filter(|(_, share)| *share != 0.0);
+        let row = over_nodes(moved.map(|(component, share)| ((point.node, component), share)));
+        self.equations.row(&row).moved_up(self.offset)
     }
 
     /// Radius of gyration of its lowest floor about a vertical axis; 1 in one plane \[m\].

@@ -2,7 +2,6 @@
 
 use super::{MemberRating, System};
 use crate::interface::PortPair;
-use crate::linear::Row;
 use crate::model::MemberRequest;
 use crate::structure::MemberForces;
 
@@ -81,8 +80,7 @@ impl System {
                 .contacts
                 .iter()
                 .flat_map(|contact| contact.ports.sides());
-            let struck = Row::single(building.offset + dof);
-            ports.any(|(port, _)| port.building == index && port.row == struck)
+            ports.any(|(port, _)| port.building == index && port.is_at(building.offset + dof))
         };
         let mut forces = MemberForces::new(&building.structure, building.at_rest(), is_struck);
         for form in &mut forces.forms {

@@ -10,7 +10,7 @@ use crate::model::{
     Building, Damping, Foundation, FoundationSprings, Gravity, GroundSprings, HalfSpace, LinkLaw,
     MassDamping, Model, SoilCoupling,
 };
-use crate::structure::{Discretization, Equations, RigidFoundation, Subgrade};
+use crate::structure::{Discretization, Equations, RigidFoundation, StruckPoints, Subgrade};
 
 /// The foundation of a building of a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,7 +166,7 @@ impl Founded {
     pub(super) fn new(
         building: &Building,
         fixed: &BuildingSystem,
-        points: [&[f64]; 2],
+        points: &StruckPoints,
         foundation: &Foundation,
         ground: &Ground<'_>,
     ) -> Result<Self, (&'static str, String)> {

@@ -17,7 +17,7 @@ pub(super) use crate::stepping::extremes::BEYOND;
 use crate::stepping::extremes::greatest_in_step;
 use crate::stepping::floor_peaks::{FloorPeaks, columns_of, columns_of_corners};
 use crate::stepping::plan_drifts::PlanDrifts;
-use crate::stepping::recorder::{columns, forces_of_faces, has_closing, put_energies};
+use crate::stepping::recorder::{closing_of, columns, forces_of_faces, put_energies};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
@@ -667,7 +667,7 @@ impl Peaks {
         }
         let contacts = system.contacts.iter().enumerate();
         contacts
-            .filter(|(contact, _)| has_closing(system, grounds, *contact))
+            .filter(|(contact, _)| closing_of(system, grounds, *contact).is_some())
             .for_each(|(contact, _)| put(reduced.closing(contact, watched.u)));
         links.iter().for_each(|force| put(*force));
         for followed in &system.links_followed {

@@ -3,13 +3,14 @@
 use jostle::history::{Column, Kind, Owner};
 use jostle::hysteresis::{
     Backbone, BucklingBrace, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching, Side,
+    Stage,
 };
 use jostle::linear::StepMatrix;
 use jostle::statics::{STANDARD_GRAVITY, compressions, settle};
 use jostle::structure::{SpringPlace, solve_once};
 use jostle::{
     Base, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, Foundation, Frame, FrameHinges,
-    HalfSpace, Isolation, Isolator, MemberRequest, Model, Outcome, PanelAcross, PlanFrame,
+    HalfSpace, Isolation, Isolator, MemberRequest, Model, Outcome, PanelAcross, PlanFrame, Reach,
     RiccatiSweep, Rise, Section, Soil, SoilCoupling, Solver, Structure, StrutLine, System, Tier,
     Tiers,
 };
@@ -27,6 +28,7 @@ fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagon
         storey,
         bay,
         rise,
+        reach: Reach::BAY,
         strut: StrutLine::Central,
     };
     let stiffness = 4e7;
@@ -574,4 +576,193 @@ fn panels_are_compared_with_the_accelerations_of_their_floors() {
     assert!(!said(&summary), "{:?}", summary.warnings);
     let (_, _, weak) = runs::run_and_summary(&model(Some(100.0)), &motion);
     assert!(said(&weak));
+}
+
+/// An elastic brace from the foot of the first line to floor 2 of the third, across two bays.
+fn across_two_storeys(stiffness: f64) -> Diagonal {
+    let mut brace = diagonal(DiagonalKind::Brace, 1, 1, Rise::Right);
+    brace.place.reach = Reach {
+        storeys: 2,
+        bays: 2,
+    };
+    brace.stiffness = stiffness;
+    brace.hysteresis = None;
+    brace
+}
+
+/// How floors sway under unit forces at floors: by jostle.
+fn flexibility(frame: &Frame) -> [[f64; 2]; 2] {
+    let system = assembled(&alone(framed("A", frame.clone())));
+    let building = &system.buildings[0];
+    [0, 1].map(|loaded| {
+        let mut load = vec![0.0; building.equations.len()];
+        load[building.floors[loaded].dof] = 1.0;
+        let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load);
+        let moved = moved.expect("it stands");
+        [0, 1].map(|floor: usize| moved[building.floors[floor].dof])
+    })
+}
+
+/// The same by the stiffness of members in the plane, assembled and eliminated here: floors 1 and 2 of three lines, whose joints move
+/// sideways together, rise and turn.
+fn by_hand(frame: &Frame, brace: f64) -> [[f64; 2]; 2] {
+    const SIZE: usize = 14;
+    let xs = [0.0, frame.spans[0], frame.spans[0] + frame.spans[1]];
+    let ys = [
+        0.0,
+        frame.storey_heights[0],
+        frame.storey_heights[0] + frame.storey_heights[1],
+    ];
+    let place = |[floor, line]: [usize; 2]| -> [Option<usize>; 3] {
+        let Some(above) = floor.checked_sub(1) else {
+            return [None; 3];
+        };
+        let own = 2 + 2 * (3 * above + line);
+        [Some(above), Some(own), Some(own + 1)]
+    };
+    let mut matrix = vec![vec![0.0; SIZE]; SIZE];
+    let mut add = |stiffness: f64, row: &[(Option<usize>, f64)]| {
+        for (a, share) in row {
+            for (b, other) in row {
+                if let (Some(a), Some(b)) = (a, b) {
+                    matrix[*a][*b] += stiffness * share * other;
+                }
+            }
+        }
+    };
+    let mut member = |from: [usize; 2], to: [usize; 2], ea: f64, ei: f64| {
+        let (dx, dy) = (xs[to[1]] - xs[from[1]], ys[to[0]] - ys[from[0]]);
+        let length = dx.hypot(dy);
+        let (c, s) = (dx / length, dy / length);
+        let ([u, v, turn], [u2, v2, turn2]) = (place(from), place(to));
+        add(ea / length, &[(u2, c), (v2, s), (u, -c), (v, -s)]);
+        // Rotations of both ends from the chord: 4EI/L each and 2EI/L together, as their sum and their difference.
+        let chord = |sign: f64, share: f64| -> Vec<(Option<usize>, f64)> {
+            let both = share * (1.0 + sign) / length;
+            vec![
+                (turn, share),
+                (turn2, share * sign),
+                (u2, s * both),
+                (u, -s * both),
+                (v2, -c * both),
+                (v, c * both),
+            ]
+        };
+        let half = 0.5_f64.sqrt();
+        add(6.0 * ei / length, &chord(1.0, half));
+        add(2.0 * ei / length, &chord(-1.0, half));
+    };
+    for storey in 0..2 {
+        for line in 0..3 {
+            let column = frame.column(storey, line).expect("a column");
+            let ea = column.axial_rigidity.expect("it shortens");
+            member(
+                [storey, line],
+                [storey + 1, line],
+                ea,
+                column.flexural_rigidity,
+            );
+        }
+        for bay in 0..2 {
+            let beam = frame.beam(storey, bay).expect("a beam");
+            member(
+                [storey + 1, bay],
+                [storey + 1, bay + 1],
+                0.0,
+                beam.flexural_rigidity,
+            );
+        }
+    }
+    member([0, 0], [2, 2], brace * (xs[2]).hypot(ys[2]), 0.0);
+    let solve = |loaded: usize| {
+        let mut rows = matrix.clone();
+        let mut right = [0.0; SIZE];
+        right[loaded] = 1.0;
+        for pivot in 0..SIZE {
+            for below in pivot + 1..SIZE {
+                let share = rows[below][pivot] / rows[pivot][pivot];
+                for column in pivot..SIZE {
+                    rows[below][column] -= share * rows[pivot][column];
+                }
+                right[below] -= share * right[pivot];
+            }
+        }
+        for pivot in (0..SIZE).rev() {
+            let known: f64 = (pivot + 1..SIZE)
+                .map(|column| rows[pivot][column] * right[column])
+                .sum();
+            right[pivot] = (right[pivot] - known) / rows[pivot][pivot];
+        }
+        [right[0], right[1]]
+    };
+    [solve(0), solve(1)]
+}
+
+/// A brace over two storeys and two bays, against the stiffness method written anew.
+#[test]
+fn a_brace_over_two_storeys_is_one_more_member() {
+    let mut frame = frame(2, &[6.0, 4.5]);
+    frame.axial.columns_flexible = true;
+    let plain = by_hand(&frame, 0.0);
+    for (got, due) in flexibility(&frame).concat().into_iter().zip(plain.concat()) {
+        close(got, due, due, 1e-9, "without brace");
+    }
+    frame.diagonals.push(across_two_storeys(5e7));
+    let braced = by_hand(&frame, 5e7);
+    for (got, due) in flexibility(&frame)
+        .concat()
+        .into_iter()
+        .zip(braced.concat())
+    {
+        close(got, due, due, 1e-9, "with brace");
+    }
+    assert!(braced[1][1] < 0.7 * plain[1][1], "{braced:?}");
+    // Neither floor 1 nor the middle line is held: the brace passes them.
+    assert!(braced[0][0] > 0.1 * plain[0][0]);
+}
+
+/// Columns that resist nothing: the roof stands on the brace as on a truss, F = k cos² α u.
+#[test]
+fn a_brace_past_a_floor_holds_the_roof_alone() {
+    let mut frame = frame(2, &[6.0, 4.5]);
+    for section in frame.columns.iter_mut().chain(&mut frame.beams) {
+        section.flexural_rigidity = 1.0;
+    }
+    let stiffness = 5e7;
+    frame.diagonals.push(across_two_storeys(stiffness));
+    let rise: f64 = frame.storey_heights.iter().sum();
+    let cosine = 10.5 / 10.5_f64.hypot(rise);
+    let due = 1.0 / (stiffness * cosine * cosine);
+    close(flexibility(&frame)[1][1], due, due, 1e-6, "roof");
+}
+
+/// It yields as any other, by both solvers, and is named by its joints.
+#[test]
+fn a_brace_over_two_storeys_yields() {
+    let answers = [Solver::Riccati, Solver::Stiffness].map(|solver| {
+        let mut frame = frame(2, &[6.0, 4.5]);
+        frame.axial.columns_flexible = true;
+        let mut brace = diagonal(DiagonalKind::Brace, 1, 1, Rise::Right);
+        brace.place.reach = Reach {
+            storeys: 2,
+            bays: 2,
+        };
+        frame.diagonals.push(brace);
+        let mut model = alone(framed("A", frame));
+        model.analysis.solver = Some(solver);
+        let (system, outcome) = shaken(&model);
+        let place = system.buildings[0].discretization.spring_places[0];
+        assert_eq!(
+            place.to_string(),
+            "brace, floor 0, line 1 to floor 2, line 3"
+        );
+        let law = system.buildings[0].equations.springs[0].hysteresis;
+        assert_eq!(law.stage(&outcome.state.springs[0]), Stage::Yielded);
+        let floors = outcome.peaks.floors(0);
+        let moved = floors.iter().map(|floor| floor.displacement_max().value);
+        moved.collect::<Vec<f64>>()
+    });
+    for (a, b) in answers[0].iter().zip(&answers[1]) {
+        close(*a, *b, *b, 1e-6, "floors");
+    }
 }

@@ -9,9 +9,9 @@ use jostle::structure::{MemberPlace, solve_once};
 use jostle::{
     Analysis, Axial, Base, Bearing, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace,
     Frame, FrameHinges, Gravity, GridLine, GroundMotion, MemberRequest, Model, Outcome,
-    PanelAcross, PlanAxis, PlanFrame, PlanPoint, RiccatiSweep, Rise, Section, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, Structure, StrutLine, Summary, System, Tier, TierStorey,
-    Tiers,
+    PanelAcross, PlanAxis, PlanFrame, PlanPoint, Reach, RiccatiSweep, Rise, Section, Solver,
+    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, Structure, StrutLine, Summary, System, Tier,
+    TierStorey, Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::motions::fading;
@@ -64,6 +64,7 @@ impl Law {
             storey,
             bay,
             rise,
+            reach: Reach::BAY,
             strut: StrutLine::Central,
         };
         Diagonal {

@@ -7,7 +7,7 @@ use jostle::linear::StepMatrix;
 use jostle::structure::solve_once;
 use jostle::{
     Damping, Diagonal, DiagonalKind, DiagonalPlace, Frame, GroundMotion, MemberRequest, Model,
-    PanelAcross, RiccatiSweep, Rise, Section, Solver, StrutLine,
+    PanelAcross, Reach, RiccatiSweep, Rise, Section, Solver, StrutLine,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::models::concrete;
@@ -42,6 +42,7 @@ fn panel(law: Hysteresis, storey: usize, limit: f64, offset: f64) -> [Diagonal; 
             storey,
             bay: 1,
             rise,
+            reach: Reach::BAY,
             strut: StrutLine::Central,
         },
         stiffness: STIFFNESS,

@@ -1,5 +1,7 @@
 //! Walls and coupling beams of frames: closed forms, equilibrium, and the same frame by another way.
 
+use std::collections::BTreeMap;
+
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Pinching};
 use jostle::linear::StepMatrix;
 use jostle::statics::{STANDARD_GRAVITY, compressions};
@@ -48,6 +50,7 @@ fn coupled(storeys: usize, yields: bool) -> Frame {
             true => at_foot(law(HysteresisRule::Bilinear, 5e10, moment, 0.02)),
             false => Vec::new(),
         },
+        fibres: BTreeMap::new(),
         shear: yields.then(|| law(HysteresisRule::Bilinear, 8e8, 6e5, 0.05)),
         stiffness_factors: [1.0; 2],
     };
@@ -177,6 +180,7 @@ fn a_pair_of_walls_sways_as_in_closed_form() {
             storeys: [1, 1],
             length,
             hinges: Vec::new(),
+            fibres: BTreeMap::new(),
             shear: None,
             stiffness_factors: [1.0; 2],
         });
@@ -215,6 +219,7 @@ fn a_coupling_beam_yields_over_the_distance_of_its_walls() {
         length: [2.5, 1.5][line - 1],
         // Elastic: it never yields.
         hinges: at_foot(law(HysteresisRule::Bilinear, k[line - 1], 1e12, 1.0)),
+        fibres: BTreeMap::new(),
         shear: None,
         stiffness_factors: [1.0; 2],
     };
@@ -359,6 +364,7 @@ fn walls_yield_in_shear_as_a_storey() {
             storeys: [1, 1],
             length: 2.0,
             hinges: Vec::new(),
+            fibres: BTreeMap::new(),
             shear: Some(own_law),
             stiffness_factors: [1.0; 2],
         });

@@ -5,7 +5,7 @@ use jostle::linear::StepMatrix;
 use jostle::structure::solve_once;
 use jostle::{
     Building, Column, Damping, Diagonal, DiagonalKind, DiagonalPlace, Frame, MemberRequest, Model,
-    PanelDamage, RiccatiSweep, Rise, Section, StrutLine, Summary,
+    PanelDamage, Reach, RiccatiSweep, Rise, Section, StrutLine, Summary,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::motions::fading;
@@ -31,6 +31,7 @@ fn strut(rise: Rise, offsets: [f64; 2], strut: StrutLine) -> Diagonal {
             storey: 1,
             bay: 1,
             rise,
+            reach: Reach::BAY,
             strut,
         },
         stiffness: STIFFNESS,

@@ -256,6 +256,7 @@ fn a_space_frame_rises_as_plane_frames() {
         torsional_rigidity: 1.0,
         axial_rigidity: section.axial_rigidity,
         shear_rigidity: None,
+        line_mass: 0.0,
     };
     let mut members = Vec::new();
     for level in 0..STOREYS {

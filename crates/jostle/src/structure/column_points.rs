@@ -1,0 +1,117 @@
+//! Points of columns between floors: where neighbours can strike them, and where struts meet those of a space frame.
+
+use std::collections::BTreeMap;
+
+use crate::model::{LumpedFloor, SpaceFrame, SpacePlace};
+
+/// Where neighbours can strike a building between its floors, or links end.
+///
+/// ```
+/// use jostle::structure::StruckPoints;
+///
+/// // The right face of a frame, 3.3 m above its base.
+/// let points = StruckPoints { faces: [vec![], vec![3.3]], ..StruckPoints::default() };
+/// assert!(points.columns.is_empty());
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StruckPoints {
+    /// Heights above the base on the left and on the right face of a building in one plane \[m\].
+    pub faces: [Vec<f64>; 2],
+    /// Heights above the joint at the foot of columns of a space frame \[m\].
+    pub columns: BTreeMap<SpacePlace, Vec<f64>>,
+}
+
+/// Points of one column closer than this coincide \[m\].
+const SAME: f64 = 1e-6;
+
+/// A point of a column of a space frame that moves by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ColumnPoint {
+    pub(super) column: SpacePlace,
+    /// Height above the joint at its foot \[m\].
+    pub(super) above: f64,
+    /// Mass of the halves of both segments that meet there \[kg\].
+    pub(super) mass: f64,
+}
+
+/// All such points of a space frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ColumnPoints {
+    /// Column by column, from the lowest of each up.
+    pub(super) all: Vec<ColumnPoint>,
+    /// Mass of every floor that they carry in its place \[kg\].
+    pub(super) taken: Vec<f64>,
+}
+
+impl ColumnPoints {
+    /// Points where columns can be struck, and where struts meet them. A column whose mass m′h belongs to the floors in halves gives each
+    /// point ½ m′ of both segments beside it; the floors keep the rest.
+    pub(super) fn new(
+        frame: &SpaceFrame,
+        storey_heights: &[f64],
+        struck: &BTreeMap<SpacePlace, Vec<f64>>,
+    ) -> Self {
+        let mut heights = struck.clone();
+        for (column, above) in frame.ends_of_struts(storey_heights) {
+            heights.entry(column).or_default().push(above);
+        }
+        let mut points = Self {
+            all: Vec::new(),
+            taken: vec![0.0; storey_heights.len()],
+        };
+        for (column, mut heights) in heights {
+            let mut members = frame.members.iter();
+            let Some(member) = members.find(|member| member.place == column) else {
+                continue;
+            };
+            let [first, last] = frame.rigid_ends(column);
+            let top = frame.length(column, storey_heights) - last;
+            heights.retain(|above| *above > first + SAME && *above < top - SAME);
+            heights.sort_by(f64::total_cmp);
+            heights.dedup_by(|a, b| (*a - *b).abs() <= SAME);
+            let (Some(lowest), Some(highest)) = (heights.first(), heights.last()) else {
+                continue;
+            };
+            let half = 0.5 * member.section.line_mass;
+            let storey = column.storey();
+            points.taken[storey] += half * (highest - first);
+            if let Some(below) = storey.checked_sub(1) {
+                points.taken[below] += half * (top - lowest);
+            }
+            for (index, above) in heights.iter().enumerate() {
+                let before = index.checked_sub(1).map_or(first, |before| heights[before]);
+                let after = heights.get(index + 1).copied().unwrap_or(top);
+                points.all.push(ColumnPoint {
+                    column,
+                    above: *above,
+                    mass: half * (after - before),
+                });
+            }
+        }
+        points
+    }
+
+    /// Points of a column and their numbers, upwards.
+    pub(super) fn of(&self, column: SpacePlace) -> impl Iterator<Item = (usize, &ColumnPoint)> {
+        let all = self.all.iter().enumerate();
+        all.filter(move |(_, point)| point.column == column)
+    }
+
+    /// Number of the point of a column nearest to a height above its foot.
+    pub(super) fn nearest(&self, column: SpacePlace, above: f64) -> Option<usize> {
+        let off = |point: &ColumnPoint| (point.above - above).abs();
+        let nearest = self
+            .of(column)
+            .min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b)));
+        nearest.map(|(number, _)| number)
+    }
+}
+
+/// Floors without the mass that points of columns carry in their place, spread as that of the floor.
+pub(crate) fn lightened(floors: &mut [LumpedFloor], taken: &[f64]) {
+    for (floor, taken) in floors.iter_mut().zip(taken) {
+        let tier = &mut floor.tier;
+        tier.polar_mass *= 1.0 - taken / tier.mass;
+        tier.mass -= taken;
+    }
+}
