@@ -35,6 +35,10 @@ pub struct BuildingAnswer {
 /// What is known of a pair after the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairAnswer {
+    /// Draws times motions.
+    pub samples: usize,
+    /// Samples in which they hit each other.
+    pub hits: usize,
     /// Probability that they hit each other, from the closing curve \[–\].
     pub struck: f64,
     /// Share of the samples in which a slab strikes columns \[–\].
@@ -210,6 +214,8 @@ impl City {
         forces.sort_by(f32::total_cmp);
         let two = |values: &[f32]| [0.5, 0.9].map(|of| f64::from(quantile(values, of)));
         PairAnswer {
+            samples: cases.len(),
+            hits: cases.iter().filter(|case| case.impacts > 0).count(),
             struck: cases
                 .iter()
                 .map(|case| gaps.probability_below(case.closing, pair.distance))

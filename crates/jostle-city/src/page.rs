@@ -291,7 +291,7 @@ impl City {
                 "Moderate damage and worse",
                 percent(moderate[1]),
                 format!(
-                    "with neighbours, {} alone; contact worsens the state in {} of the samples and spares one in {}",
+                    "with neighbours, {} alone; counting every state, contact worsens it in {} of the samples and improves it in {}",
                     percent(moderate[0]),
                     percent(answers.changed[0]),
                     percent(answers.changed[1])
@@ -360,12 +360,14 @@ impl City {
                     canvas #map aria-label="Map of the buildings" {}
                     aside #detail {}
                 }
-                p.quiet { "The slider redraws the probability of a strike from the closing of the free buildings: no run is needed for other gaps." }
+                p.quiet.screen { "The slider redraws the probability of a strike from the closing of the free buildings: no run is needed for other gaps." }
             }
             section {
                 h2 { "Pairs to look at first" }
                 p.quiet {
-                    "Ranked by four times the share of samples in which contact worsens a state, twice the share with strikes on columns, and the probability of a strike. All " (order.len())
+                    "Counts are of samples: draws of gaps and buildings, times motions. The probability of a strike also averages over the gaps that were not drawn. "
+                    "Worse: contact brings either building into a worse state, also by other neighbours in its row. "
+                    "Ranked by four times the share of worse samples, twice the share with strikes on columns, and the probability of a strike. All " (order.len())
                     " pairs are in worst-pairs.csv. Any of them becomes a model file by " code { "jostle city model FOLDER --pair NUMBER --draw 0" } "."
                     @if !links.is_empty() {
                         " Run opens a pair here in the browser, in the draw that shows most of what contact does to it; every number can be changed there."
@@ -373,7 +375,7 @@ impl City {
                 }
                 div.worst tabindex="0" { table {
                     thead { tr {
-                        th { "Pair" } th { "Left" } th { "Right" } th { "Storeys" } th { "On the map" } th { "Struck" }
+                        th { "Pair" } th { "Left" } th { "Right" } th { "Storeys" } th { "On the map" } th { "Probability of a strike" } th { "Struck" }
                         th { "On columns" } th { "Closing, median" } th { "90 %" } th { "Force, median" } th { "Worse" }
                         @if !links.is_empty() { th { "Model" } }
                     } }
@@ -389,11 +391,12 @@ impl City {
                                 td { (self.structures[left].storeys) " | " (self.structures[right].storeys) }
                                 td { (LENGTH.text(pair.distance, 0)) }
                                 td { (percent(own.struck)) }
-                                td { (percent(own.column)) }
+                                td { (of_samples(own.hits as f64, own.samples)) }
+                                td { (of_samples(own.column * own.samples as f64, own.samples)) }
                                 td { (LENGTH.text(own.closing[0], 0)) }
                                 td { (LENGTH.text(own.closing[1], 0)) }
                                 td { @if own.force[0] > 0.0 { (MEGANEWTON.text(own.force[0], 2)) } @else { "–" } }
-                                td { (percent(own.worse)) }
+                                td { (of_samples(own.worse * own.samples as f64, own.samples)) }
                                 @if let Some((model, link)) = links.get(at) {
                                     @let [draw, motion] = model.sample;
                                     td { a href=(link) title=(format!("draw {draw}, motion {motion}")) { "Run" } }
@@ -429,6 +432,11 @@ impl City {
             }
         }
     }
+}
+
+/// A count of samples.
+fn of_samples(count: f64, samples: usize) -> String {
+    format!("{count:.0} of {samples}")
 }
 
 /// Pairs, most critical first.

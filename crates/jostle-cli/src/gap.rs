@@ -14,7 +14,7 @@ use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 use jostle_report::{required_width, rows_of_rules};
-use jostle_run::{RuleGap, counted, earlier_gap_curves, write_gap_curves};
+use jostle_run::{RuleGap, counted, earlier_gap_curves, gap_sets, write_gap_curves};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -215,37 +215,17 @@ fn note(notes: &mut Vec<String>, warning: &str) {
     }
 }
 
-/// Greatest, mean and standard deviation of the gaps between the same neighbours, of both signs of a record the greater.
-fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
-    let mut pairs: Vec<[String; 2]> = found.iter().map(|gap| gap.between.clone()).collect();
-    pairs.dedup();
-    pairs.sort();
-    pairs.dedup();
-    let of = |pair: [String; 2]| {
-        let gaps = found.iter().filter(|gap| gap.between == pair);
-        let both = gaps.map(|gap| gap.of_both_signs_m());
-        let widths: Vec<f64> = both.collect();
-        let n = widths.len() as f64;
-        let mean = widths.iter().sum::<f64>() / n;
-        let square: f64 = widths.iter().map(|w| (w - mean).powi(2)).sum();
-        let deviation = (square / (n - 1.0).max(1.0)).sqrt();
-        let most = widths.iter().copied().fold(0.0, f64::max);
-        (pair, [most, mean, deviation], widths.len())
-    };
-    pairs.into_iter().map(of).collect()
-}
-
 /// Every number as JSON.
 pub(crate) fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
-    let sets: Vec<_> = sets(found)
+    let sets: Vec<_> = gap_sets(found)
         .into_iter()
-        .map(|(between, [most, mean, deviation], records)| {
+        .map(|set| {
             serde_json::json!({
-                "between": between,
-                "records": records,
-                "gap_max_m": most,
-                "gap_mean_m": mean,
-                "gap_deviation_m": deviation,
+                "between": set.governing.between,
+                "records": set.gaps.len(),
+                "gap_max_m": set.governing.of_both_signs_m(),
+                "gap_mean_m": set.mean_m,
+                "gap_deviation_m": set.deviation_m,
             })
         })
         .collect();
@@ -323,16 +303,17 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
         text += "\nEach gap is searched while the others are out of reach: impacts at other gaps can make it close by more.\n";
     }
     let mut fewest = usize::MAX;
-    for (pair, [most, mean, deviation], records) in sets(found) {
+    for set in gap_sets(found) {
+        let records = set.gaps.len();
         fewest = fewest.min(records);
         if records > 1 {
             text += &format!(
                 "\n{} over {}, the greater of both signs: greatest {}, mean {}, standard deviation {}\n",
-                pair.join(" ↔ "),
+                set.governing.between.join(" ↔ "),
                 counted(records, "record"),
-                required_width(most),
-                required_width(mean),
-                millimetres(deviation)
+                required_width(set.governing.of_both_signs_m()),
+                LENGTH.text(set.mean_m, 1),
+                LENGTH.text(set.deviation_m, 1)
             );
         }
     }

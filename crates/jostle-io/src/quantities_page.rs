@@ -117,6 +117,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
         Column::support_force(0),
     ];
     let energies = EnergyTerm::ALL.into_iter().map(Column::energy);
+    let friction = Column::energy(EnergyTerm::Friction);
     let of_grounds = [
         Column::energy(EnergyTerm::Ground),
         Column::ground_displacement(0),
@@ -130,6 +131,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
     for recorded in columns
         .into_iter()
         .chain(energies)
+        .chain([friction])
         .chain(of_grounds)
         .map(Column::recorded)
     {

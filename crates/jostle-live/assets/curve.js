@@ -66,7 +66,7 @@ function fillOver() {
   const entries = gaps.length > 1 ? [["gap[*].width", say("all_gaps")]] : [];
   for (const knob of gaps) entries.push([knob.path, say("gap_of", { name: knob.group })]);
   for (const knob of usable.filter((knob) => !gaps.includes(knob))) {
-    entries.push([knob.path, `${knob.group}: ${knob.name.replaceAll("_", " ")}`]);
+    entries.push([knob.path, `${knob.group}: ${nameOfKnob(knob)}`]);
   }
   const described = JSON.stringify(entries);
   if (select.dataset.entries !== described) {
@@ -232,7 +232,7 @@ function drawCurve() {
   const { from, to } = curve;
   const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("one_over_other", { name, other: curve.path }) });
   const over = byId("over").selectedOptions[0]?.textContent ?? curve.path;
-  const x = { ends: [from, to], count: Math.max(3, width / 110), name: `${over} [${curve.unit || "–"}]` };
+  const x = { ends: [from, to], count: Math.max(4, width / 80), name: `${over} [${curve.unit || "–"}]` };
   const { px, py } = plot(svg("g", { class: "grid" }, image), { width, height, margin: picture, x, y: { ends: [0, high] } });
   Object.assign(picture, { width, px });
   const path = (points, y) => {

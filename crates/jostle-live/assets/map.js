@@ -51,6 +51,8 @@ function fillAcross() {
 const map = { left: 72, right: 92, top: 14, bottom: 42, height: 340 };
 
 function drawMap() {
+  // Marks of a curve have no place in a map.
+  byId("curve-marks").replaceChildren();
   const host = byId("curve-picture");
   const measure = Number(byId("measure").value);
   const { name, unit } = results[measure];

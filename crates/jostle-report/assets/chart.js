@@ -69,14 +69,14 @@ const margin = { left: 58, right: 12, top: 8, bottom: 24 };
  */
 class TimeChart {
   constructor(host, view, { title, unit, series, levels = [], zone, dots = [], height = 190, seek }) {
-    Object.assign(this, { view, unit, series, levels, zone, dots, height, seek, title });
+    Object.assign(this, { view, unit, series, levels, zone, dots, onScreen: height, seek, title });
     this.figure = html("figure", "chart", undefined, host);
     this.caption = html("figcaption", "", undefined, this.figure);
     this.svg = svg("svg", { role: "img", tabindex: 0 }, this.figure);
     this.layers = {};
     const clipped = clip(this.svg);
     this.clipBox = clipped.rect;
-    for (const name of ["zone", "grid", "lines", "levels", "dots", "marks"]) {
+    for (const name of ["zone", "grid", "lines", "dots", "levels", "marks"]) {
       const inside = name === "grid" || name === "levels" ? {} : clipped.attributes;
       this.layers[name] = svg("g", { class: name, ...inside }, this.svg);
     }
@@ -118,7 +118,7 @@ class TimeChart {
   update({ title, unit, series, levels = [], zone, dots = [], height = 190 }) {
     const named = (chart) => JSON.stringify([chart.title, chart.unit, chart.series.map((s) => [s.label, s.colour, s.dashed, s.area])]);
     const before = named(this);
-    Object.assign(this, { title, unit, series, levels, zone, dots, height });
+    Object.assign(this, { title, unit, series, levels, zone, dots, onScreen: height });
     if (named(this) !== before) this.name();
     this.draw();
   }
@@ -128,6 +128,11 @@ class TimeChart {
 
   /** Width while printing [px]; otherwise as wide as there is room. */
   static paperWidth = null;
+
+  /** On paper all charts are as high as the lowest, so that a page holds more of them and their axes of time line up. */
+  get height() {
+    return TimeChart.paperWidth === null ? this.onScreen : Math.min(this.onScreen, 150);
+  }
 
   remove() {
     this.view.charts.delete(this);
@@ -140,9 +145,12 @@ class TimeChart {
     const legend = html("span", "legend", undefined, caption);
     return this.series.map((s) => {
       const key = html("span", "key", undefined, legend);
-      const swatch = html("span", `swatch${s.dashed ? " dashed" : ""}`, undefined, key);
-      swatch.style.setProperty("--c", s.colour);
-      html("span", "", s.label, key);
+      // A chart of one line needs no name for it.
+      if (s.label) {
+        const swatch = html("span", `swatch${s.dashed ? " dashed" : ""}`, undefined, key);
+        swatch.style.setProperty("--c", s.colour);
+        html("span", "", s.label, key);
+      }
       return html("output", "value", "", key);
     });
   }

@@ -44,8 +44,12 @@ function drawMap() {
   const columns = rising(pairs.map(({ pair }) => pair.beside));
   if (!pairs.some(({ index }) => index === chosen)) chosen = pairs[0]?.index ?? null;
   const values = pairs.map(({ index }) => find(index, gap, state)?.[shown]).filter((value) => value !== null && value !== undefined);
-  const low = shown === "factor" ? Math.min(0.8, ...values) : 0;
-  const high = shown === "factor" ? Math.max(1.2, ...values) : Math.max(shown === "median" ? 0.1 : 1, ...values);
+  const isFactor = shown === "factor";
+  // Factors are seen from 1 on to either side, by ratios.
+  const reach = Math.max(Math.log(1.2), ...(isFactor ? values.map((value) => Math.abs(Math.log(value))) : []));
+  const low = isFactor ? -reach : 0;
+  const high = isFactor ? reach : Math.max(shown === "median" ? 0.1 : 1, ...values);
+  const shade = (at) => (isFactor ? { kind: at < 0 ? " worse" : " better", share: Math.abs(at) / reach } : { kind: "", share: at / high });
   const [left, top, side] = [64, 26, 64];
   const picture = svg("svg", { viewBox: `0 0 ${left + side * columns.length + 160} ${top + side * rows.length + 46}`, role: "img", "aria-label": SHOWN[shown], style: `max-width:${left + side * columns.length + 160}px` });
   svg("text", { x: 0, y: 14 }, picture).textContent = say("classes_storeys_of_class");
@@ -56,9 +60,9 @@ function drawMap() {
     const one = find(index, gap, state);
     const value = one?.[shown];
     const known = value !== null && value !== undefined;
-    const share = known ? (value - low) / (high - low) : 0;
+    const { kind, share } = known ? shade(isFactor ? Math.log(value) : value) : { kind: "", share: 0 };
     const [x, y] = [left + side * columns.indexOf(pair.beside), top + side * (rows.length - 1 - rows.indexOf(pair.storeys))];
-    const cell = svg("rect", { class: `study-cell${known ? "" : " empty"}${index === chosen ? " linked" : ""}`, x: x + 1, y: y + 1, width: side - 2, height: side - 2, style: `--s:${(100 * share).toFixed(1)}%`, tabindex: 0, role: "button", "aria-label": `${pair.storeys} / ${pair.beside}: ${digits(value)}` }, picture);
+    const cell = svg("rect", { class: `study-cell${kind}${known ? "" : " empty"}${index === chosen ? " linked" : ""}`, x: x + 1, y: y + 1, width: side - 2, height: side - 2, style: `--s:${(100 * share).toFixed(1)}%`, tabindex: 0, role: "button", "aria-label": `${pair.storeys} / ${pair.beside}: ${digits(value)}` }, picture);
     svg("title", {}, cell).textContent = known ? `${SHOWN[shown]}: ${digits(value)}` : one?.note ?? say("classes_no_curve");
     const choose = () => { chosen = index; draw(); };
     cell.addEventListener("click", choose);
@@ -66,8 +70,14 @@ function drawMap() {
     svg("text", { class: `study-number${share > 0.5 ? " on-dark" : ""}`, x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle" }, picture).textContent = digits(value);
   }
   const bar = left + side * columns.length + 20;
-  for (let i = 0; i < 24; i++) svg("rect", { class: "study-cell", x: bar, y: top + (side * rows.length * (23 - i)) / 24, width: 12, height: (side * rows.length) / 24 + 0.3, style: `--s:${((100 * (i + 0.5)) / 24).toFixed(1)}%` }, picture);
-  for (const part of [0, 0.5, 1]) svg("text", { x: bar + 18, y: top + side * rows.length * (1 - part) + 4 }, picture).textContent = digits(low + part * (high - low));
+  for (let i = 0; i < 24; i++) {
+    const { kind, share } = shade(low + ((i + 0.5) / 24) * (high - low));
+    svg("rect", { class: `study-cell${kind}`, x: bar, y: top + (side * rows.length * (23 - i)) / 24, width: 12, height: (side * rows.length) / 24 + 0.3, style: `--s:${(100 * share).toFixed(1)}%` }, picture);
+  }
+  for (const part of [0, 0.5, 1]) {
+    const at = low + part * (high - low);
+    svg("text", { x: bar + 18, y: top + side * rows.length * (1 - part) + 4 }, picture).textContent = digits(isFactor ? Math.exp(at) : at);
+  }
   at("map").replaceChildren(picture);
 }
 

@@ -63,6 +63,13 @@ function load(data, beside) {
     values: unpack(values),
     indentation: indentation && unpack(indentation),
   }));
+  // Histories are thinned; peaks of impacts are known.
+  for (const { contact, at, peak } of page.impacts ?? []) {
+    const { time, values } = forces[contact];
+    const before = indexBefore(time, at);
+    const nearest = at - time[before] < time[before + 1] - at ? before : before + 1;
+    if (values[nearest] > 0.98 * peak) [time[nearest], values[nearest]] = [at, peak];
+  }
   contacts = page.gaps.flatMap((gap) => gap.contacts.map((contact) => ({ ...contact, gap })));
 }
 

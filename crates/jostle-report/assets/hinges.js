@@ -61,9 +61,10 @@ class HingeLegend {
     if (!hinges.some((hinge) => hinge.yielded < Infinity)) return;
     const scale = html("span", "key", say("yielded_greatest_ductility"), host);
     grades.forEach((low, grade) => {
-      const mark = svg("svg", { class: "mark", viewBox: "0 0 14 14", "aria-hidden": "true" }, scale);
+      const step = html("span", "grade-step", undefined, scale);
+      const mark = svg("svg", { class: "mark", viewBox: "0 0 14 14", "aria-hidden": "true" }, step);
       svg("path", { class: `hinge-2 grade-${grade}`, d: markOutline(2, 7, 7, 4.2) }, mark);
-      html("span", "", grade + 1 < grades.length ? `${low}–${grades[grade + 1]}` : say("over_value", { value: low }), scale);
+      html("span", "", grade + 1 < grades.length ? `${low}–${grades[grade + 1]}` : say("over_value", { value: low }), step);
     });
   }
 

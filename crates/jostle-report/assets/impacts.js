@@ -68,17 +68,17 @@ class ImpactPanels {
     const shown = this.byForce.slice(0, this.all ? mostPanels : firstPanels).sort((a, b) => a - b);
     const hardest = page.impacts[this.byForce[0]].peak * unitOf("kN").factor;
     for (const i of shown) {
-      const { at, peak, contact } = page.impacts[i];
+      const { start, peak, contact } = page.impacts[i];
       const button = html("button", "impact-panel", undefined, this.strip);
       button.type = "button";
       button.setAttribute("aria-pressed", String(i === this.chosen));
-      button.title = `${fixed(at, 3)} s, ${contactName(contacts[contact])}`;
+      button.title = `${fixed(start, 3)} s, ${contactName(contacts[contact])}`;
       const points = this.shapes[i];
       const length = Math.max(points.at(-1).time, 1e-9);
       const place = ({ time, force }) => `${(2 + (96 * time) / length).toFixed(1)},${(42 - (38 * force) / hardest).toFixed(1)}`;
       const drawing = svg("svg", { viewBox: "0 0 100 44", "aria-hidden": "true" }, button);
       svg("path", { class: "line area", style: this.colour(i), d: `M${points.map(place).join("L")}Z` }, drawing);
-      html("span", "", `${fixed(at, 2)} s`, button);
+      html("span", "", `${fixed(start, 2)} s`, button);
       html("span", "unit", `${readable(peak * unitOf("kN").factor)} ${unitOf("kN").name}`, button);
       button.addEventListener("click", () => showImpact(page.impacts[i]));
       this.buttons.set(i, button);

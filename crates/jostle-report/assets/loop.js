@@ -7,8 +7,9 @@ class LoopChart {
     this.name = data.name;
     this.time = unpack(data.time);
     const [length, force, moment, energy] = [unitOf("mm"), unitOf("kN"), unitOf("kN·m"), unitOf("kJ")];
-    const across = data.is_path || data.storey ? length : { name: data.over_time ? "s" : "mrad", factor: 1e3 };
-    const up = data.is_path ? length : data.over_time || data.storey ? force : moment;
+    const turns = { name: "mrad", factor: 1e3 };
+    const across = data.over_time ? { name: "s", factor: 1 } : data.is_path || data.storey ? length : turns;
+    const up = data.is_path ? length : data.storey ? force : moment;
     const [dUnit, fUnit] = [across.name, up.name];
     this.x = data.over_time ? this.time : scaled(unpack(data.deformation), across.factor);
     this.isPath = data.is_path;
@@ -32,7 +33,7 @@ class LoopChart {
 
   static width = 320;
   static height = 250;
-  static margin = { left: 58, right: 10, top: 8, bottom: 32 };
+  static margin = { left: 66, right: 10, top: 8, bottom: 32 };
 
   /** Scales, grid and the lines that never change. */
   frame(dUnit, fUnit) {

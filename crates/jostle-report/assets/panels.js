@@ -21,6 +21,8 @@ function contactName(contact) {
 
 function groundChart() {
   const series = [{ label: say("ground"), colour: "var(--ink-2)", ...ground }];
+  const { across } = page.bearing ?? {};
+  if (across) series.push({ label: say("ground_across"), colour: "var(--c3)", time: unpack(across.time), values: unpack(across.values) });
   const { name, factor } = unitOf("m/s²");
   for (const own of series) own.values = scaled(own.values, factor);
   return { title: say("ground_acceleration_title"), unit: name, series, height: 150 };
@@ -70,6 +72,7 @@ function heightChart() {
 }
 
 const energyNames = {
+  friction: say("friction"),
   contact: say("contact"),
   hysteretic: say("hysteretic"),
   damped: say("damped"),

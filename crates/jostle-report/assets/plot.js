@@ -1,16 +1,18 @@
 // What every drawing needs: numbers as text, elements, and axes with their grid.
 
-/** Fixed decimals with a true minus sign. */
+/** Fixed decimals with a true minus sign, and thin spaces between thousands from ten thousand on. */
 function fixed(value, decimals) {
   if (!Number.isFinite(value)) return "–";
-  const text = value.toFixed(decimals);
+  const plain = value.toFixed(decimals);
+  if (Math.abs(value) >= 9999.5) return plain.replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f").replace("-", "−");
+  const text = plain;
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
 }
 
-/** A value with about three digits, for read-outs. */
+/** A value with at most four digits, as the tables and tiles of pages have peaks. */
 function readable(value) {
   const size = Math.abs(value);
-  return fixed(value, size >= 1000 ? 0 : size >= 100 ? 1 : size >= 1 || size === 0 ? 2 : 3);
+  return fixed(Number(value.toPrecision(4)), size >= 1000 ? 0 : size >= 100 ? 1 : size >= 1 || size === 0 ? 2 : 3);
 }
 
 /** An SI value in a unit, with its name. */

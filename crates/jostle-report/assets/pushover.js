@@ -167,7 +167,7 @@ class PushView {
       below = height;
     });
     this.profile.setAttribute("d", path);
-    this.said.textContent = building.hinges.length ? say("hinges_so_far", { cracked: cracked - yielded, yielded, all: building.hinges.length }) : say("no_hinges");
+    this.said.textContent = building.hinges.length ? say("hinges_so_far", { cracked, yielded, all: building.hinges.length }) : say("no_hinges");
     this.find("now").textContent = `${inUnit(roof, unitOf("mm"), 1)} (${fixed((100 * roof) / building.height, 3)} %), ${inUnit(shear, unitOf("kN"), 0)}`;
     this.find("factor").textContent = `${factor}×`;
     const chart = building.chart;

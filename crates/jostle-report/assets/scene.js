@@ -76,7 +76,6 @@ class Scene {
         hinges: [0, 1].map((stage) => svg("path", { class: `hinge-${stage}` }, group)),
         yielded: grades.map((_, grade) => svg("path", { class: `hinge-2 grade-${grade}` }, group)),
         places: hinges.filter((hinge) => hinge.building === i),
-        sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
       };
     });
     // A wall of the site has no place in a row of buildings.
@@ -87,6 +86,8 @@ class Scene {
     }));
     this.links = page.links.map((link) => ({ link, path: svg("path", { class: "link" }, this.svg) }));
     this.flashes = contacts.map(() => svg("circle", { class: "flash" }, this.svg));
+    // Above the flashes, which would hide signs and digits.
+    for (const part of this.parts) part.sway = svg("text", { class: "sway", "text-anchor": "middle" }, this.svg);
     this.instant = svg("text", { class: "instant", x: 12, y: 24 }, this.svg);
     this.arrow = svg("path", { class: "ground-arrow" }, this.svg);
   }
@@ -129,7 +130,8 @@ class Scene {
     this.pit = page.buildings.some((building) => building.isolated || building.footing) ? Scene.pit : 0;
     this.below = Scene.below + this.pit;
     const total = this.left[last] + widths[last] + roomRight;
-    const tallest = this.width < 600 ? 340 : 560;
+    // On paper the picture shares its page with the answer.
+    const tallest = TimeChart.paperWidth ? 330 : this.width < 600 ? 340 : 560;
     this.scale = Math.min((this.width - 2 * Scene.beside) / total, (tallest - 100) / this.top);
     this.base = this.top * this.scale + 34;
     this.shift = (this.width - total * this.scale) / 2;
@@ -207,7 +209,8 @@ class Scene {
       const [left, right] = [0, 1].map((side) => this.faceAtRest(gap, side));
       const x = this.px((left + right) / 2);
       const near = Math.min(...gap.between.filter((b) => b !== null).map((b) => this.widths[b])) * this.scale;
-      const label = near > 70 ? say("gap_width", { width: readableLength(gap.width) }) : readableLength(gap.width);
+      const widths = page.gaps.filter((own) => [...own.between, ...own.walls].join() === pair).map((own) => readableLength(own.width));
+      const label = near <= 70 ? widths.join(", ") : widths.length > 1 ? say("gaps_of_widths", { widths: widths.join(", ") }) : say("gap_width", { width: widths[0] });
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
     const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62 + this.below, "text-anchor": "end" };
@@ -259,7 +262,9 @@ class Scene {
       else runs.push({ storey, count: 1, from: heights[k] });
     });
     const middle = (foot + roof) / 2;
-    const label = ({ storey, count }) => (count > 1 ? `${count} × ${metres(storey)}` : metres(storey));
+    // A lone 6 or 9 can be read upside down.
+    const alone = (storey) => (metres(storey).includes(".") ? metres(storey) : `${metres(storey)}.0`);
+    const label = ({ storey, count }) => (count > 1 ? `${count} × ${metres(storey)}` : alone(storey));
     const fits = (run) => run.count * run.storey * this.scale > Math.max(24, 6.2 * label(run).length);
     if (runs.length === 1) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} ${unitOf("m").name} = ${metres(roof - foot)} ${unitOf("m").name}` : `${metres(roof - foot)} ${unitOf("m").name}`, middle);
     else if (runs.every(fits)) runs.forEach((run) => write(label(run), run.from + (run.count * run.storey) / 2));
@@ -548,7 +553,9 @@ class Scene {
     contacts.forEach((contact, i) => {
       const { impact, strength } = this.glow(i, t);
       const circle = this.flashes[i];
-      const shown = impact && inARow(contact.gap);
+      // A wall of the site has no place in the row; the side of the building that it strikes has.
+      const along = contact.plan?.normal[0] ?? 0;
+      const shown = impact && (inARow(contact.gap) || Math.abs(along) > 0.7);
       circle.style.display = shown ? "" : "none";
       if (!shown) return;
       const height = contact.height;

@@ -13,6 +13,9 @@ const SCRIPTS: [&str; 3] = [
 ];
 const STUDY_STYLE: &str = include_str!("../assets/study.css");
 
+/// Motions below which medians say little of others \[–\].
+const FEW_MOTIONS: f64 = 7.0;
+
 /// How much pounding changes the intensity of damage, over all pairs; `None` where no pair has a factor.
 fn answer(data: &Value) -> Option<String> {
     let curves = data["curves"].as_array()?.iter();
@@ -45,6 +48,9 @@ pub fn render_classes(title: &str, data: &Value) -> String {
         @for own in warnings.iter().filter_map(Value::as_str) {
             p.note { (message::warning()) " " (own) }
         }
+        @if number("motions") < FEW_MOTIONS {
+            p.note { b { (message::warning()) } " " (message::classes_few_motions(number("motions"))) }
+        }
         section {
             h2 { (message::classes_map()) }
             div.controls {
@@ -56,7 +62,7 @@ pub fn render_classes(title: &str, data: &Value) -> String {
                 label { (message::classes_gap()) " " input #gap type="range" min="0" step="1"; " " output #gap-width {} }
             }
             figure.study-map { div #map {} }
-            p.quiet { (message::classes_map_help()) }
+            p.quiet { (message::classes_map_help()) " " span.screen { (message::classes_map_click()) " " } (message::classes_names()) }
         }
         section {
             h2 { (message::classes_curves()) }

@@ -4,7 +4,7 @@ use jostle::ContactLaw;
 use jostle::contact::{CollisionPoint, FreeCollision};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{POLICY, STYLE, theme_button, theme_script};
+use crate::document::{POLICY, STYLE, on_paper, theme_button, theme_script};
 use crate::format;
 use crate::message;
 
@@ -95,6 +95,7 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 title { (title) " – jostle" }
                 style { (PreEscaped(STYLE)) }
+                (on_paper(&title))
             }
             body {
                 header.head { div {

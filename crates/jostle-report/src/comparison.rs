@@ -3,7 +3,7 @@
 use jostle::results::comparison::{HistoryScore, ImpactScore};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, on_paper, theme_button, theme_script};
 use crate::format;
 use crate::message;
 use crate::static_plot::{Line, Plot};
@@ -87,6 +87,7 @@ pub fn render_comparison(page: &ComparisonPage) -> String {
                 title { (message::title_comparison(page.title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) (PreEscaped(CALCULATION_STYLE)) }
+                (on_paper(page.title))
             }
             body {
                 @if !page.warnings.is_empty() {

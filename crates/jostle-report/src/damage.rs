@@ -3,6 +3,7 @@
 use jostle::hysteresis::{HysteresisRule, Side};
 use jostle::model::{Building, Diagonal, DiagonalKind, Structure};
 use jostle::results::summary::{BuildingSummary, PartSummary, SpringSummary};
+use jostle::structure::SpringPlace;
 
 use crate::{format, message};
 
@@ -59,7 +60,7 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
             (cracked, yields().count(), first, ductility)
         };
         found.push(Damage {
-            name: message::hinges_yielded_word(),
+            name: yielded_word(&list().filter_map(|hinge| hinge.at).collect::<Vec<_>>()),
             count: [yielded, hinges.total - braces],
             first_s,
             note: match cracked {
@@ -94,6 +95,27 @@ pub fn footing_name(name: &str) -> String {
         Some((building, "")) => message::footing_of(building),
         Some((building, line)) => message::footing_of_line(line.trim_start_matches('.'), building),
         None => name.to_owned(),
+    }
+}
+
+/// What yielded apart from braces, in words of its places.
+fn yielded_word(places: &[SpringPlace]) -> &'static str {
+    let is_storey = |at: &SpringPlace| {
+        use SpringPlace::{PlanStorey, Storey};
+        matches!(at, Storey { .. } | PlanStorey { .. })
+    };
+    let is_bearing = |at: &SpringPlace| {
+        use SpringPlace::{BearingInPlan, Bearings, Ring, Stop};
+        matches!(
+            at,
+            Bearings | BearingInPlan { .. } | Ring { .. } | Stop { .. }
+        )
+    };
+    match places {
+        [] => message::hinges_yielded_word(),
+        all if all.iter().all(is_storey) => message::storeys_yielded_word(),
+        all if all.iter().all(is_bearing) => message::bearings_yielded_word(),
+        _ => message::hinges_yielded_word(),
     }
 }
 

@@ -98,10 +98,12 @@ fn building(
     facts.push((message::damping(), said));
     if let Some(summary) = summary {
         facts.push((message::vibrating_mass(), format::tonnes(summary.mass_kg)));
-        facts.push((
-            message::peak_base_shear(),
-            format::force(summary.response.base_shear_peak_n),
-        ));
+        // Under an isolated building it is the force of its bearings.
+        let name = match summary.isolation {
+            Some(_) => message::peak_force_of_bearings(),
+            None => message::peak_base_shear(),
+        };
+        facts.push((name, format::force(summary.response.base_shear_peak_n)));
         facts.push((
             message::roof_displacement_at_the_end(),
             format::millimetres(summary.response.residual_roof_displacement_m),
@@ -346,7 +348,12 @@ fn places(floors: &FloorPairs) -> String {
                 Level::Wall => message::wall().to_owned(),
             };
             let shown = pairs.iter().take(PAIRS);
-            let shown = shown.map(|pair| pair.map(point).join("–"));
+            let shown = shown.map(|pair| match *pair {
+                [Level::Wall, level] | [level, Level::Wall] => {
+                    message::against_the_wall(point(level))
+                }
+                _ => pair.map(point).join("–"),
+            });
             let mut text = message::floors_of_pairs(shown.collect::<Vec<_>>().join(", "));
             if pairs.len() > PAIRS {
                 text += &message::and_more_pairs_of_points(pairs.len() - PAIRS);
@@ -496,6 +503,11 @@ fn motion(page: &Page) -> Facts {
             message::wave(),
             message::ricker_pulse_period_s(format::plain(*period, 3)),
         )),
+    }
+    if let Some(across) = motion.across() {
+        facts.push((message::across_fact(), across.name.clone()));
+        let peak = format::acceleration(across.peak());
+        facts.push((message::peak_across(), peak));
     }
     facts
 }

@@ -16,6 +16,22 @@ pub(crate) const POLICY: &str =
 /// Script of [`theme_button`], for pages without other scripts.
 const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
 
+/// The style of the foot of printed pages, which names the document.
+pub(crate) fn on_paper(title: &str) -> Markup {
+    let escaped: String = title
+        .chars()
+        .flat_map(|letter| match letter {
+            '"' | '\\' => vec!['\\', letter],
+            // No tag may end the style, no line the text.
+            '<' => "\\3c ".chars().collect(),
+            other if other.is_control() => vec![' '],
+            other => vec![other],
+        })
+        .collect();
+    let style = format!("@page{{@bottom-left{{content:\"{escaped} – jostle\"}}}}");
+    html! { style media="print" { (PreEscaped(style)) } }
+}
+
 /// The button that switches between light and dark.
 pub(crate) fn theme_button() -> Markup {
     html! {
@@ -57,6 +73,7 @@ pub fn render_document(
                 title { (title) " – jostle" }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(style)) }
+                (on_paper(title))
             }
             body {
                 header.head {

@@ -264,7 +264,7 @@ const WIDTH: f64 = 320.0;
 const HEIGHT: f64 = 300.0;
 const LEFT: f64 = 38.0;
 const RIGHT: f64 = 14.0;
-const TOP: f64 = 10.0;
+const TOP: f64 = 22.0;
 const BOTTOM: f64 = 30.0;
 
 fn picture(title: &str, unit: &str, [low, top]: [f64; 2], lines: &[Line], page: &Page) -> Markup {
@@ -296,7 +296,7 @@ fn picture(title: &str, unit: &str, [low, top]: [f64; 2], lines: &[Line], page: 
                 g.grid {
                     (x.across([TOP, HEIGHT - BOTTOM]))
                     (y.up([LEFT, WIDTH - RIGHT]))
-                    text x=(LEFT - 6.0) y=(TOP) text-anchor="end" { (format::HEIGHT.name()) }
+                    text x=(LEFT - 6.0) y="10" text-anchor="end" { (format::HEIGHT.name()) }
                 }
                 @for line in lines {
                     polyline.line.dashed[line.dashed] style=(crate::document::colour(line.building)) points=(path(line, &x, &y)) {}

@@ -144,7 +144,7 @@ pub(crate) fn shown_peak(peak: Peak, si: f64) -> String {
 /// A stated number with its unit, which has this SI name.
 pub(crate) fn exact(si: f64, unit: &str) -> String {
     let (factor, unit) = factor_of(unit);
-    format!("{} {unit}", plain(si * factor, 3))
+    format!("{} {}", plain(si * factor, 3), typeset(unit))
 }
 
 /// Factor to the unit that is shown, and its name, of a unit without prefix.
@@ -188,6 +188,43 @@ pub(crate) fn linear_dashpot(si: f64) -> String {
             (1e9, "GN·s/m"),
         ],
     )
+}
+
+/// A written number with thin spaces between thousands, from ten thousand on, and what follows it as it is.
+pub(crate) fn grouped(text: &str) -> String {
+    let sign = text.len() - text.trim_start_matches(['-', '−']).len();
+    let digits = text[sign..].bytes().take_while(u8::is_ascii_digit).count();
+    let (whole, rest) = text[sign..].split_at(digits);
+    match whole.parse::<f64>() {
+        Ok(value) if digits > 4 => format!("{}{}{rest}", &text[..sign], fixed(value, 0)),
+        _ => text.to_owned(),
+    }
+}
+
+/// Typed quantities as they are printed: `1 m/s2 … 2e9 N/m^1.5` is `1 m/s² … 2 × 10⁹ N/m¹·⁵`, `30 deg` is `30°`.
+#[must_use]
+pub fn typeset(text: &str) -> String {
+    let word = |word: &str| {
+        let (number, end) = match word.strip_suffix(',') {
+            Some(number) => (number, ","),
+            None => (word, ""),
+        };
+        match number.parse::<f64>() {
+            Ok(value) if number.contains(['e', 'E']) => format!("{}{end}", plain(value, 4)),
+            _ => word.to_owned(),
+        }
+    };
+    let words: Vec<String> = text.split(' ').map(word).collect();
+    let signs = [
+        ("^1.5", "¹·⁵"),
+        ("m/s2", "m/s²"),
+        ("^2", "²"),
+        (" deg", "°"),
+    ];
+    let joined = words.join(" ");
+    signs.into_iter().fold(joined, |text, (typed, printed)| {
+        text.replace(typed, printed)
+    })
 }
 
 fn is_us() -> bool {
@@ -282,6 +319,9 @@ pub(crate) fn acceleration(value: f64) -> String {
     if !value.is_finite() {
         return NOTHING.into();
     }
+    if is_us() {
+        return short(ACCELERATION, value, 3);
+    }
     format!(
         "{} ({}\u{a0}%\u{a0}g)",
         short(ACCELERATION, value, 3),
@@ -347,6 +387,21 @@ mod tests {
             assert_eq!(plain(value, 4), text, "{value} as stated");
         }
         assert_eq!(rigidity(81e6), "81\u{a0}MN·m²");
+    }
+
+    #[test]
+    fn typed_quantities_are_typeset() {
+        for (typed, printed) in [
+            ("1 m/s2 … 220 cm/s2", "1 m/s² … 220 cm/s²"),
+            (
+                "2e9 N/m^1.5, 4e9 N/m^1.5",
+                "2\u{202f}×\u{202f}10⁹ N/m¹·⁵, 4\u{202f}×\u{202f}10⁹ N/m¹·⁵",
+            ),
+            ("0 deg … 330 deg (12 values)", "0° … 330° (12 values)"),
+            ("el-centro", "el-centro"),
+        ] {
+            assert_eq!(typeset(typed), printed);
+        }
     }
 
     #[test]

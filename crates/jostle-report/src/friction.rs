@@ -92,7 +92,7 @@ fn table(model: &Model, all: &[Face]) -> Markup {
                         th scope="row" { (face.gap.between[0]) " ↔ " (face.gap.between[1]) }
                         td { (sides[0]) " | " (sides[1]) }
                         td.number { (format::plain(coefficient(model, face), 3)) }
-                        td.number { (format::in_unit(format::FORCE, face.sliding.tangential_peak_n, 1)) }
+                        td.number { (format::significant(format::FORCE.of(face.sliding.tangential_peak_n), 4)) }
                         td.number { (format::in_unit(format::LENGTH, face.sliding.slip_peak_m, 2)) }
                         td.number { (format::in_unit(format::IMPULSE, face.sliding.tangential_impulse_n_s, 2)) }
                         td.number { (format::in_unit(format::ENERGY, face.sliding.friction_j, 2)) }

@@ -39,7 +39,7 @@ pub(crate) fn joints(page: &Page) -> Markup {
     let combined = rules.any(|rule| rule.name == "SRSS");
     html! {
         @for (summary, gap, (widths, required)) in &gaps {
-            @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
+            @let (longest, cut) = scale(widths);
             div.joint {
                 h3 {
                     (message::one_and_other(&summary.between[0], &summary.between[1]))
@@ -52,8 +52,8 @@ pub(crate) fn joints(page: &Page) -> Markup {
                         div.bar-row role="row" {
                             span.bar-name role="rowheader" { (width.name) }
                             span.bar-track role="presentation" {
-                                span.bar.(width.class) style=(format!("width:{:.2}%", width.metres / longest * 100.0)) {}
-                                span.bar-gap style=(format!("left:{:.2}%", summary.width_m / longest * 100.0)) {}
+                                span.bar.(width.class).cut[cut && width.metres > longest] style=(format!("width:{:.2}%", (width.metres / longest * 100.0).min(100.0))) {}
+                                span.bar-gap style=(format!("left:{:.2}%", (summary.width_m / longest * 100.0).min(100.0))) {}
                             }
                             span.bar-value role="cell" { (width.shown) }
                         }
@@ -62,14 +62,32 @@ pub(crate) fn joints(page: &Page) -> Markup {
                 (sources(required))
             }
         }
+        p.legend {
+            @for (class, name) in [("of-run", message::of_this_run()), ("of-rule", message::rules_of_combination()), ("of-code", message::code_rules())] {
+                span.key { span.bar-key.(class) {} (name) }
+            }
+        }
         p.quiet {
             (message::the_line_marks_the_gap())
+            @if gaps.iter().any(|(_, _, (widths, _))| scale(widths).1) { " " (message::a_bar_is_cut()) }
+            @if gaps.iter().any(|(_, _, (widths, _))| widths.iter().any(|width| width.name == "DDC")) { " " (message::double_difference()) }
             @if combined {
                 " " (message::srss_and_abs_combine()) " "
                 @if is_without_contact { (message::of_the_run_without_contact()) } @else { (message::of_this_run_impacts_included()) }
                 " " (message::codes_take_the_same_displacements())
             }
         }
+    }
+}
+
+/// The longest bar \[m\], and whether one that is longer is cut, because it would squeeze all others.
+fn scale(widths: &[Width]) -> (f64, bool) {
+    let mut sorted: Vec<f64> = widths.iter().map(|width| width.metres).collect();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    match sorted[..] {
+        [first, second, ..] if first > 2.0 * second && second > 0.0 => (1.1 * second, true),
+        [first, ..] => (first.max(1e-9), false),
+        [] => (1e-9, false),
     }
 }
 

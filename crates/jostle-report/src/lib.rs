@@ -68,6 +68,7 @@ pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, rende
 pub use contact_box::ContactBox;
 pub use damage::{Damage, damage, footing_name};
 pub use document::render_document;
+pub use format::typeset;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
 pub use pounding_effect::{Extremes, changes};
@@ -79,7 +80,7 @@ pub use site_drawing::site_svg;
 pub use site_places::SitePlace;
 pub use study_page::{
     Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Petal, Rose, Section, Series, Stroke, StudyPage,
-    SuitePage, SuiteRow, render_study, render_suite, with_unit,
+    SuitePage, SuiteRow, render_study, render_suite, with_three_digits, with_unit,
 };
 pub use verdict::verdict;
 pub use viewer::{Frame, Viewer, frame};

@@ -2,6 +2,7 @@
 
 use jostle::Structure;
 use jostle::linear::sort_by;
+use jostle::model::capacity_rule_title;
 use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ExceededSummary, JointSummary, MemberSummary, RatioPlace,
     SectionSummary,
@@ -10,7 +11,6 @@ use jostle_section::capacity::ShearRule;
 use maud::{Markup, html};
 
 use crate::message;
-use crate::rules::capacity_rule_name;
 use crate::{Page, format};
 
 /// Ratio from which there is next to no capacity to divide by.
@@ -304,7 +304,7 @@ fn joints(building: &BuildingSummary) -> Markup {
     let beyond = beyond.count();
     html! {
         details.peaks open[beyond > 0] {
-            summary { (message::joints_of_beams_and_columns(&building.name, beyond, all, capacity_rule_name(rules.first().unwrap_or(&"")))) }
+            summary { (message::joints_of_beams_and_columns(&building.name, beyond, all, capacity_rule_title(rules.first().unwrap_or(&"")))) }
             @if all > MOST_ROWS {
                 p.quiet { (message::of_joints_summary_json(MOST_ROWS, all)) }
             }
@@ -313,7 +313,7 @@ fn joints(building: &BuildingSummary) -> Markup {
                     thead { tr {
                         th scope="col" { (message::joint()) }
                         th.number scope="col" { (message::shear_of_the_core()) br; span.unit { (format::FORCE.bracketed()) } }
-                        @for rule in &rules { th.number scope="col" { (message::shear_capacity()) br; (capacity_rule_name(rule)) } }
+                        @for rule in &rules { th.number scope="col" { (message::shear_capacity()) br; (capacity_rule_title(rule)) } }
                     } }
                     tbody {
                         @for joint in &joints {

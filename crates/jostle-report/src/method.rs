@@ -3,7 +3,7 @@
 use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{POLICY, STYLE, theme_button, theme_script};
+use crate::document::{POLICY, STYLE, on_paper, theme_button, theme_script};
 use crate::scale::name_upwards;
 use crate::{format, message};
 
@@ -29,6 +29,7 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 title { (message::the_method(title)) }
                 style { (PreEscaped(STYLE)) }
+                (on_paper(title))
             }
             body {
                 header class="head" {

@@ -147,7 +147,7 @@ fn tiles(m: &Measures) -> Markup {
         ),
         (
             message::peak_displacement(),
-            shown(format::HEIGHT, m.pgd.value),
+            shown(format::LENGTH, m.pgd.value),
             at(m.pgd.at),
         ),
         (

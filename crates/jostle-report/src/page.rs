@@ -3,7 +3,8 @@
 use jostle_io::in_shown_units;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
+use crate::damage::strut_stages;
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, on_paper, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::message;
 use crate::site_drawing::SITE_STYLE;
@@ -60,6 +61,19 @@ pub(crate) fn page(page: &Page) -> Markup {
     let without = without.as_deref();
     let recorded = page.history.len() > 1;
     let yields = !hinges::places(page).is_empty();
+    // Marks of places that yield, and of struts.
+    let marked = yields
+        || page
+            .model
+            .buildings
+            .iter()
+            .zip(&page.summary.buildings)
+            .any(|(model, summary)| {
+                strut_stages(model, summary)
+                    .iter()
+                    .flatten()
+                    .any(|stage| *stage > 0)
+            });
     let script = match page.model.is_in_space() {
         true => flush(&IN_SPACE) + &flush(&SCRIPTS),
         false => flush(&SCRIPTS),
@@ -75,6 +89,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 title { (page.summary.title) " – jostle" }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(CALCULATION_STYLE)) @if page.model.is_in_space() { (PreEscaped(SITE_STYLE)) } }
+                (on_paper(&page.summary.title))
             }
             body {
                 (warnings(page))
@@ -95,7 +110,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (bounds::section(page))
                     @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {
-                        (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
+                        (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), marked))
                         @if let Some(space) = site_plan::space_section(page) { (space) }
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
                     } @else {

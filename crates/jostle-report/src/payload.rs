@@ -557,7 +557,7 @@ fn gaps(page: &Page, walls: &[SceneWall]) -> Vec<GapData> {
                     index += 1;
                     ContactData {
                         index: index - 1,
-                        label: place(summary, contact),
+                        label: place(page.summary, summary, contact),
                         floors: contact.floors,
                         height: contact.height_m,
                         width: contact.width_m,
@@ -830,9 +830,10 @@ fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column
         }));
     }
     if energies {
-        wanted.extend(
-            EnergyTerm::ALL.map(|term| (format!("e:{}", energy_name(term)), Column::energy(term))),
-        );
+        let all = EnergyTerm::ALL.into_iter().chain([EnergyTerm::Friction]);
+        let named = all.map(|term| (format!("e:{}", energy_name(term)), Column::energy(term)));
+        // Friction is recorded only where faces have it.
+        wanted.extend(named.filter(|(_, column)| history.columns().contains(column)));
     }
     wanted
 }
@@ -846,6 +847,7 @@ fn energy_name(term: EnergyTerm) -> &'static str {
         EnergyTerm::Damped => "damped",
         EnergyTerm::Hysteretic => "hysteretic",
         EnergyTerm::Contact => "contact",
+        EnergyTerm::Friction => "friction",
     }
 }
 

@@ -16,18 +16,6 @@ pub fn rule_name(name: &str) -> String {
     }
 }
 
-/// A rule of capacity as it is written: `gb50010` is `GB 50010`.
-pub(crate) fn capacity_rule_name(key: &str) -> &str {
-    match key {
-        "gb50010" => "GB 50010",
-        "en1998-3" => "EN 1998-3",
-        "asce41" => "ASCE 41",
-        "aci318" => "ACI 318",
-        "sezen-moehle" => message::sezen_and_moehle(),
-        other => other,
-    }
-}
-
 /// Rules with their names, in their order. Where GB 50011 requires the same width at every intensity, one row holds for all.
 ///
 /// `name_and_width` gives the name of a rule and the gap that it requires \[m\].

@@ -4,7 +4,7 @@ use jostle::hysteresis::{Corner, Side};
 use jostle_section::{Analysis, EndCurve, Section, SectionSurvey};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{POLICY, STYLE, theme_button, theme_script};
+use crate::document::{POLICY, STYLE, on_paper, theme_button, theme_script};
 use crate::format::{
     FORCE, HEIGHT, LENGTH, MOMENT, STRESS, Units, fixed, in_unit, significant, units,
 };
@@ -30,6 +30,7 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 title { (message::title_sections(title)) }
                 style { (PreEscaped(STYLE)) }
+                (on_paper(title))
             }
             body {
                 header class="head" {

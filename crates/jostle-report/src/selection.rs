@@ -245,9 +245,7 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         x: axis(message::period(), "s"),
         y: axis("pseudo-acceleration", format::ACCELERATION.name()),
         series: all,
-        levels: Vec::new(),
-        reach: 0.0,
-        ordered: false,
+        ..Chart::default()
     }
 }
 

@@ -22,7 +22,7 @@ const STRIP: f64 = 84.0;
 /// Size of a letter: width and height.
 const LETTER: [f64; 2] = [7.2, 15.0];
 /// Distance of a number from its corner.
-const INSIDE: f64 = 11.0;
+const INSIDE: f64 = 19.0;
 
 /// Style of a drawing in a file of its own; on a page the style sheet has it.
 pub(crate) const SITE_STYLE: &str = include_str!("../assets/site.css");

@@ -59,6 +59,9 @@ fn drawing(page: &Page) -> Markup {
         }
         p.quiet {
             (message::filled_circles_centres_of_mass())
+            @if tiers(page.model).any(|(.., tiers)| tiers.initial_storey(0).is_some()) { " " (message::open_squares_centres_of_stiffness()) }
+            @if tiers(page.model).any(|(.., tiers)| !tiers.frames.is_empty() || tiers.space_frame.is_some() || !tiers.yielding.is_empty()) { " " (message::columns_and_lines_of_the_lowest_storey()) }
+            @if tiers(page.model).any(|(.., tiers)| tiers.space_frame.is_some()) { " " (message::dash_and_dot_grid_lines()) }
             @if places.iter().any(|place| place.slip.is_some()) { " " (message::arrows_beside_faces()) }
         }
     }
@@ -141,7 +144,8 @@ pub(crate) fn scene() -> Markup {
                 label { input #space-names type="checkbox" checked; " " (message::forces_in_kn()) }
             }
             p.quiet {
-                (message::drag_to_turn_the_view())
+                span.screen { (message::drag_to_turn_the_view()) " " }
+                (message::the_scene_in_space())
             }
         }
     }
@@ -176,7 +180,7 @@ fn faces(page: &Page) -> Markup {
                                 td { (pair(contact.floors)) } td { (kind_in_words(plan.kind)) }
                                 td.number { (format::in_unit(format::HEIGHT, plan.overlap_m, 2)) } td.number { (format::in_unit(format::LENGTH, contact.width_m, 1)) }
                                 td.number { (format::fixed(plan.normal[0], 3)) ", " (format::fixed(plan.normal[1], 3)) }
-                                td.number { (contact.impact_count) } td.number { (format::in_unit(format::FORCE, contact.peak_force_n, 1)) }
+                                td.number { (contact.impact_count) } td.number { (format::significant(format::FORCE.of(contact.peak_force_n), 4)) }
                                 td.number { @match centre { Some([x, y]) => { (format::in_unit(format::HEIGHT, x, 2)) ", " (format::in_unit(format::HEIGHT, y, 2)) } None => { "–" } } }
                             }
                         }

@@ -68,7 +68,7 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                     tbody {
                         @for (i, (gap, contact, index, impact)) in rows.iter().enumerate() {
                             tr.beyond[i >= FIRST_ROWS] data-start=(impact.start_s) data-end=(impact.end_s) data-at=(impact.peak_force_at_s) data-contact=(index) {
-                                td { @if several { (gap.between[0]) " ↔ " (gap.between[1]) ", " } (place(gap, contact)) }
+                                td { @if several { (gap.between[0]) " ↔ " (gap.between[1]) ", " } (place(page.summary, gap, contact)) }
                                 @for value in cells(impact) { td.number { (value) } }
                             }
                         }

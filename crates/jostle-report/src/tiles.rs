@@ -439,7 +439,18 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
     let force = bounds.unwrap_or(nominal);
     let first = summary.gaps.iter().filter_map(|gap| gap.first_impact_s);
     let first = first.min_by(f64::total_cmp);
-    let mut at = hardest.map_or_else(String::new, |(gap, contact)| place(gap, contact));
+    let mut at = hardest.map_or_else(String::new, |(gap, contact)| {
+        let at = place(summary, gap, contact);
+        match summary.gaps.len() {
+            1 => at,
+            _ => format!("{} ↔ {}, {at}", gap.between[0], gap.between[1]),
+        }
+    });
+    // Several floors in contact press at the same time.
+    let together = hardest.map_or(0.0, |(gap, _)| gap.total_force_peak_n);
+    if together > 1.005 * nominal {
+        at = message::together_force(at, format::force(together));
+    }
     if let Some([least, most]) = force_range(summary) {
         at = message::with_force_range(at, format::force(least), format::force(most));
     }
@@ -476,11 +487,9 @@ fn force_range(summary: &Summary) -> Option<[f64; 2]> {
 fn roofs(summary: &Summary) -> Vec<Tile> {
     let roofs = summary.buildings.iter().filter_map(|building| {
         let roof = building.floors.last()?.response;
-        let range = format!(
-            "{} / +{}",
-            format::in_unit(format::LENGTH, roof.displacement_min_m, 1),
-            format::millimetres(roof.displacement_max_m)
-        );
+        let of = |value| format::in_unit(format::LENGTH, value, 1);
+        let [least, most] = [roof.displacement_min_m, roof.displacement_max_m].map(of);
+        let range = format!("{least} / +{most}\u{a0}{}", format::LENGTH.name());
         let peak = format::millimetres(roof.displacement_peak_m());
         Some(tile(message::roof_of(&building.name), peak, range))
     });
@@ -504,16 +513,16 @@ fn motion(summary: &Summary) -> String {
         // It is in g.
         format::Units::Us => peak,
     };
+    let along = message::name_and_peak(&summary.motion.name, peak);
+    let motions = match (&summary.motion.across, summary.motion.pga_across_m_s2) {
+        (Some(across), Some(peak)) => {
+            let peak = format::short(format::ACCELERATION, peak, 3);
+            message::along_and_across(along, message::name_and_peak(across, peak))
+        }
+        _ => along,
+    };
     message::under_the_motion(
-        match (&summary.motion.across, summary.motion.pga_across_m_s2) {
-            (Some(across), Some(peak)) => message::name_and_across(
-                &summary.motion.name,
-                across,
-                format::short(format::ACCELERATION, peak, 3),
-            ),
-            _ => summary.motion.name.clone(),
-        },
-        peak,
+        motions,
         format::significant(summary.energy.worst_imbalance, 2),
     )
 }

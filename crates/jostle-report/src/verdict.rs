@@ -27,7 +27,7 @@ fn happened(summary: &Summary) -> String {
     let quiet = summary.gaps.len() - pounding.len();
     match (&summary.gaps[..], &pounding[..]) {
         ([], _) => alone(summary),
-        ([_], [gap]) => sentence_of(gap),
+        ([_], [gap]) => sentence_of(summary, gap),
         ([gap], []) => approach(gap, message::no_contact_but()),
         (gaps, []) => {
             let nearest = gaps
@@ -43,7 +43,7 @@ fn happened(summary: &Summary) -> String {
             }
         }
         (_, gaps) if gaps.len() <= 2 => {
-            let mut text: Vec<String> = gaps.iter().map(|gap| sentence_of(gap)).collect();
+            let mut text: Vec<String> = gaps.iter().map(|gap| sentence_of(summary, gap)).collect();
             if quiet > 0 {
                 text.push(match quiet {
                     1 => message::the_other_gap_stays_open().into(),
@@ -59,7 +59,7 @@ fn happened(summary: &Summary) -> String {
             message::of_gaps_close(
                 gaps.len(),
                 all.len(),
-                hardest.map_or_else(String::new, |gap| sentence_of(gap)),
+                hardest.map_or_else(String::new, |gap| sentence_of(summary, gap)),
             )
         }
     }
@@ -99,7 +99,7 @@ fn alone(summary: &Summary) -> String {
 }
 
 /// "J1 and J2: 4 impacts …" for a gap with at least one impact.
-fn sentence_of(gap: &GapSummary) -> String {
+fn sentence_of(summary: &Summary, gap: &GapSummary) -> String {
     let [left, right] = &gap.between;
     let all = || {
         gap.contacts
@@ -119,10 +119,19 @@ fn sentence_of(gap: &GapSummary) -> String {
     let force = |impact: &ImpactSummary| format::force(impact.peak_force_n);
     let at = |impact: &ImpactSummary| format::instant(impact.start_s);
     if gap.impact_count == 1 {
-        return message::and_one_impact(left, right, place(gap, first_at), at(first), force(first));
+        return message::and_one_impact(
+            left,
+            right,
+            place(summary, gap, first_at),
+            at(first),
+            force(first),
+        );
     }
     let head = message::impacts_of_both(left, right, impacts(gap.impact_count));
-    let (first_place, hardest_place) = (place(gap, first_at), place(gap, hardest_at));
+    let (first_place, hardest_place) = (
+        place(summary, gap, first_at),
+        place(summary, gap, hardest_at),
+    );
     let start = format!("{} ({first_place})", at(first));
     if hardest == first {
         message::the_first_impact(&head, &start, force(hardest))
@@ -169,8 +178,29 @@ pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
 }
 
 /// Where a contact is: "floor 5", "floors 5 and 4", "floor 5 of Old against a column of New, height 4.80 m".
-pub(crate) fn place(gap: &GapSummary, contact: &ContactSummary) -> String {
+pub(crate) fn place(summary: &Summary, gap: &GapSummary, contact: &ContactSummary) -> String {
     let [left, right] = &gap.between;
+    // Sides that are no buildings are walls; the rigid one at an end of the row has no name of its own.
+    let wall = |side: &String| {
+        let is_building = summary.buildings.iter().any(|own| own.name == *side);
+        let rigid = || message::the_wall().to_owned();
+        (!is_building).then(|| {
+            if side == "wall" {
+                rigid()
+            } else {
+                side.clone()
+            }
+        })
+    };
+    match (contact.floors, wall(left), wall(right)) {
+        ([_, Some(0)], Some(wall), _) => return message::mat_against_wall(right, wall),
+        ([Some(0), _], _, Some(wall)) => return message::mat_against_wall(left, wall),
+        ([_, Some(floor)], Some(wall), _) => {
+            return message::floor_against_wall(floor, right, wall);
+        }
+        ([Some(floor), _], _, Some(wall)) => return message::floor_against_wall(floor, left, wall),
+        _ => {}
+    }
     let height = message::height_m(format::in_unit(format::HEIGHT, contact.height_m, 2));
     match contact.floors {
         [Some(0), Some(0)] => message::mats().to_owned(),

@@ -7,7 +7,7 @@ use jostle::contact::{
 use jostle::{ContactLaw, LawKind, RestitutionIs};
 use jostle_io::shown::{HERTZ_STIFFNESS, STIFFNESS};
 use jostle_io::{Dimension, LAW_NAMES, parse_quantity};
-use jostle_report::{CollidedLaw, Collisions, with_unit};
+use jostle_report::{CollidedLaw, Collisions, with_three_digits};
 use serde_json::{Value, json};
 
 use crate::error::RunError;
@@ -209,8 +209,8 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
     let stiffnesses = dashpot
         + &format!(
             "Stiffness {} for the Hertz family, {} for the others: the same secant at the greatest elastic Hertz indentation.",
-            with_unit(HERTZ_STIFFNESS.of(stiffness.hertz), HERTZ_STIFFNESS.name()),
-            with_unit(STIFFNESS.of(stiffness.linear), STIFFNESS.name())
+            with_three_digits(HERTZ_STIFFNESS.of(stiffness.hertz), HERTZ_STIFFNESS.name()),
+            with_three_digits(STIFFNESS.of(stiffness.linear), STIFFNESS.name())
         );
     let by_restitution = laws.iter().any(|law| !law.law.kind.has_given_constants());
     Ok(Collisions {

@@ -45,6 +45,9 @@ pub struct CriticalGap {
     pub motion: String,
     /// Its peak \[m/s²\].
     pub pga_m_s2: f64,
+    /// Width of the gap in the model, the least of several \[m\].
+    #[serde(skip)]
+    pub model_gap_m: f64,
     /// Whether it is the design motion reduced by q or R: widths of codes, which are for the full one, then have no ratio and no
     /// outcome.
     pub motion_is_reduced: bool,
@@ -84,6 +87,49 @@ impl CriticalGap {
     pub fn of_both_signs_m(&self) -> f64 {
         self.gap_m.max(self.reversed_gap_m.unwrap_or(0.0))
     }
+}
+
+/// The gaps needed between the same neighbours under several motions, of both signs of each the greater.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapSet<'a> {
+    /// Those of the motions.
+    pub gaps: Vec<&'a CriticalGap>,
+    /// The motion that needs most.
+    pub governing: &'a CriticalGap,
+    /// Mean \[m\].
+    pub mean_m: f64,
+    /// Standard deviation \[m\].
+    pub deviation_m: f64,
+}
+
+/// The sets of a search, pair by pair.
+#[must_use]
+pub fn gap_sets(found: &[CriticalGap]) -> Vec<GapSet<'_>> {
+    let mut pairs: Vec<(&[String; 2], Vec<&CriticalGap>)> = Vec::new();
+    for gap in found {
+        match pairs.iter_mut().find(|(pair, _)| *pair == &gap.between) {
+            Some((_, gaps)) => gaps.push(gap),
+            None => pairs.push((&gap.between, vec![gap])),
+        }
+    }
+    let sets = pairs.into_iter().filter_map(|(_, gaps)| {
+        let widths: Vec<f64> = gaps.iter().map(|gap| gap.of_both_signs_m()).collect();
+        let n = widths.len() as f64;
+        let mean = widths.iter().sum::<f64>() / n;
+        let square: f64 = widths.iter().map(|w| (w - mean) * (w - mean)).sum();
+        let of = |gap: &CriticalGap| gap.of_both_signs_m();
+        let governing = gaps
+            .iter()
+            .copied()
+            .max_by(|a, b| of(a).total_cmp(&of(b)))?;
+        Some(GapSet {
+            governing,
+            mean_m: mean,
+            deviation_m: (square / (n - 1.0).max(1.0)).sqrt(),
+            gaps,
+        })
+    });
+    sets.collect()
 }
 
 /// A rule that cannot be applied.
@@ -582,6 +628,7 @@ impl Search<'_> {
             between,
             motion: self.motion.name.clone(),
             pga_m_s2: self.motion.peak(),
+            model_gap_m: self.model.gaps[gap].width(),
             motion_is_reduced,
             gap_m: bracket.free,
             reversed_gap_m: reversed_closing,

@@ -1,12 +1,15 @@
 //! Force over gap as a page and a table.
 
-use jostle_report::{Axis, Chart, Section, Series, Stroke, StudyPage, render_study, rows_of_rules};
+use jostle_report::{
+    Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study, required_width,
+    rows_of_rules,
+};
 
 use std::path::Path;
 
 use jostle_io::write_atomically;
 
-use crate::critical_gap::CriticalGap;
+use crate::critical_gap::{CriticalGap, GapSet, gap_sets};
 use crate::error::RunError;
 use crate::numbers::{counted, kn, mm};
 use crate::replace::{FileKind, may_write};
@@ -93,63 +96,93 @@ fn quoted(text: &str) -> String {
 /// The page of the curves; it loads nothing from outside.
 #[must_use]
 pub fn gap_curve_page(title: &str, found: &[CriticalGap]) -> String {
-    let mut pairs: Vec<&[String; 2]> = Vec::new();
-    for gap in found {
-        if !pairs.contains(&&gap.between) {
-            pairs.push(&gap.between);
-        }
-    }
-    let sections = pairs.into_iter().flat_map(|pair| {
-        let of_pair: Vec<&CriticalGap> = found.iter().filter(|gap| gap.between == *pair).collect();
-        sections_of(pair, &of_pair)
-    });
+    let sets = gap_sets(found);
+    let answers = sets.iter().map(|set| answer(set, sets.len()));
+    let sections = sets.iter().flat_map(sections_of);
     render_study(&StudyPage {
         kind: message::force_over_gap().into(),
         title: title.into(),
-        headline: headlines(found),
+        headline: headlines(&sets),
+        answers: answers.collect(),
         sections: sections.collect(),
         files: vec![(TABLE.into(), message::one_row_per_width().into())],
         ..StudyPage::default()
     })
 }
 
-fn headlines(found: &[CriticalGap]) -> Vec<String> {
-    let mut all: Vec<String> = found.iter().map(headline).collect();
-    let several = found.iter().any(|gap| gap.motion != found[0].motion);
-    if !several && !found.is_empty() {
-        all.push(message::one_record_is_no_design_value().into());
+/// Motion that needs most of a set, with the sign that does.
+fn governing(set: &GapSet<'_>) -> String {
+    let gap = set.governing;
+    match gap.reversed_gap_m.is_some_and(|other| other > gap.gap_m) {
+        true => message::motion_reversed(&gap.motion),
+        false => gap.motion.clone(),
+    }
+}
+
+/// The tile of a pair: the gap needed, under which motion, and what the model has.
+fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
+    let needed = set.governing.of_both_signs_m();
+    let pair = match pairs {
+        1 => String::new(),
+        _ => format!(", {}", set.governing.between.join(" ↔ ")),
+    };
+    let there = required_width(set.governing.model_gap_m);
+    let mut note = message::governing_and_model(governing(set), there);
+    if set.gaps.len() > 1 {
+        let scatter = message::mean_and_deviation(
+            LENGTH.text(set.mean_m, 1),
+            LENGTH.text(set.deviation_m, 1),
+        );
+        note = format!("{note}; {scatter}");
+    }
+    [message::gap_needed(pair), required_width(needed), note]
+}
+
+fn headlines(sets: &[GapSet<'_>]) -> Vec<String> {
+    let mut all: Vec<String> = sets.iter().map(headline).collect();
+    match sets.iter().map(|set| set.gaps.len()).min() {
+        Some(1) => all.push(message::one_record_is_no_design_value().into()),
+        Some(2) => all.push(message::two_records_are_no_design_value().into()),
+        _ => {}
     }
     all
 }
 
-fn headline(gap: &CriticalGap) -> String {
-    let pair = gap.between.join(message::and());
-    let most = points(gap).max_by(|a, b| a.0.peak_force_n.total_cmp(&b.0.peak_force_n));
-    let strongest = most.filter(|(point, _)| point.impact_count > 0);
-    let strongest = strongest.map(|(point, is_reversed)| {
-        message::the_greatest_force_kn_comes(
-            kn(point.peak_force_n),
-            mm(point.width_m),
-            with_sign(is_reversed),
-        )
+fn headline(set: &GapSet<'_>) -> String {
+    let pair = set.governing.between.join(message::and());
+    let points = set.gaps.iter().flat_map(|gap| {
+        let points = points(gap);
+        points.map(move |(point, is_reversed)| (gap, point, is_reversed))
     });
+    let most = points.max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
+    let strongest = most.filter(|(_, point, _)| point.impact_count > 0);
+    let strongest = strongest.map(|(gap, point, is_reversed)| {
+        let sign = match (set.gaps.len(), is_reversed) {
+            (1, true) => message::the_motion_reversed().to_owned(),
+            (1, false) => String::new(),
+            (_, true) => message::under_motion(message::motion_reversed(&gap.motion)),
+            (_, false) => message::under_motion(&gap.motion),
+        };
+        message::the_greatest_force_kn_comes(kn(point.peak_force_n), mm(point.width_m), sign)
+    });
+    let strongest = strongest.unwrap_or_default();
+    let gap = set.governing;
     let signs = gap.reversed_gap_m;
     let signs = signs.map_or("", |_| message::either_sign_of_the_motion());
-    message::under_with_cm_s_do(
-        &gap.motion,
-        GROUND_ACCELERATION.number(gap.pga_m_s2, 1),
-        &pair,
-        LENGTH.rounded_up(gap.of_both_signs_m()),
-        signs,
-        strongest.unwrap_or_default(),
-    )
-}
-
-/// Words for the sign of a motion.
-fn with_sign(is_reversed: bool) -> &'static str {
-    match is_reversed {
-        true => message::the_motion_reversed(),
-        false => "",
+    let needed = LENGTH.rounded_up(gap.of_both_signs_m());
+    match set.gaps.len() {
+        1 => message::under_with_cm_s_do(
+            &gap.motion,
+            GROUND_ACCELERATION.number(gap.pga_m_s2, 1),
+            pair,
+            needed,
+            signs,
+            strongest,
+        ),
+        records => {
+            let motion = governing(set);
+            message::under_any_record(records, pair, needed, signs, motion, strongest)
+        }
     }
 }
 
@@ -160,121 +193,183 @@ fn axis(name: &str, unit: &str) -> Axis {
     }
 }
 
-/// Charts of one pair of neighbours, one line for each motion, and its rules.
-fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
-    let chart = |y: Axis, of: &dyn Fn(&crate::GapPoint) -> f64, dots: bool| {
-        let lines = gaps.iter().enumerate().flat_map(|(colour, gap)| {
-            [(&gap.curve, false), (&gap.reversed_curve, true)].map(|(curve, is_reversed)| Series {
-                name: match is_reversed {
-                    true => message::motion_reversed(&gap.motion),
-                    false => gap.motion.clone(),
-                },
-                points: curve
-                    .iter()
-                    .map(|p| [LENGTH.of(p.width_m), of(p)])
-                    .collect(),
-                band: Vec::new(),
-                stroke: match is_reversed {
-                    true => Stroke::Dashed,
-                    false => Stroke::Line,
-                },
-                colour,
-            })
-        });
-        let mut series: Vec<Series> = lines.filter(|line| !line.points.is_empty()).collect();
-        if dots {
-            for (index, gap) in gaps.iter().enumerate() {
-                let rules = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
-                let narrow = rules.into_iter();
-                let narrow = narrow.filter(|(_, rule)| rule.gap_m <= gap.of_both_signs_m());
-                // Rules that require the same share a dot.
-                let mut dots: Vec<(String, [f64; 2])> = Vec::new();
-                for (name, rule) in narrow {
-                    let Some(worse) = rule.worse_outcome() else {
-                        continue;
-                    };
-                    let point = [LENGTH.of(rule.gap_m), FORCE.of(worse.peak_force_n)];
-                    match dots.iter_mut().find(|(_, known)| *known == point) {
-                        Some((names, _)) => *names = format!("{names}, {name}"),
-                        None => dots.push((name, point)),
-                    }
-                }
-                series.extend(dots.into_iter().map(|(name, point)| Series {
-                    name,
-                    points: vec![point],
-                    band: Vec::new(),
-                    stroke: Stroke::Dots,
-                    colour: gaps.len() + index,
-                }));
-            }
+/// Lines of the curves of a set: one colour for each motion, dashed with the motion reversed.
+fn lines(set: &GapSet<'_>, of: &dyn Fn(&crate::GapPoint) -> f64) -> Vec<Series> {
+    let lines = set.gaps.iter().enumerate().flat_map(|(colour, gap)| {
+        [(&gap.curve, false), (&gap.reversed_curve, true)].map(|(curve, is_reversed)| Series {
+            name: match is_reversed {
+                false => gap.motion.clone(),
+                // Of several motions the remark says what dashes are.
+                true if set.gaps.len() > 1 => String::new(),
+                true => message::motion_reversed(&gap.motion),
+            },
+            points: curve
+                .iter()
+                .map(|p| [LENGTH.of(p.width_m), of(p)])
+                .collect(),
+            band: Vec::new(),
+            stroke: match is_reversed {
+                true => Stroke::Dashed,
+                false => Stroke::Line,
+            },
+            colour,
+        })
+    });
+    lines.filter(|line| !line.points.is_empty()).collect()
+}
+
+/// Dots of the rules that require less than the gap needed; those that require the same share one.
+fn dots_of_rules(gap: &CriticalGap) -> Vec<Series> {
+    let rules = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m)).into_iter();
+    let narrow = rules.filter(|(_, rule)| rule.gap_m <= gap.of_both_signs_m());
+    let mut dots: Vec<(String, [f64; 2])> = Vec::new();
+    for (name, rule) in narrow {
+        let Some(worse) = rule.worse_outcome() else {
+            continue;
+        };
+        let point = [LENGTH.of(rule.gap_m), FORCE.of(worse.peak_force_n)];
+        match dots.iter_mut().find(|(_, known)| *known == point) {
+            Some((names, _)) => *names = format!("{names}, {name}"),
+            None => dots.push((name, point)),
         }
-        Chart {
-            title: y.name.clone(),
-            x: axis(message::gap(), LENGTH.name()),
-            y,
-            series,
-            levels: Vec::new(),
-            reach: 0.0,
-            ordered: false,
-        }
-    };
-    let unmet: usize = gaps
-        .iter()
-        .flat_map(|gap| points(gap))
-        .filter(|(point, _)| point.met == Some(false))
-        .count();
-    let warning = if unmet > 0 {
-        message::did_not_meet_the_tolerance(counted(unmet, message::point()))
-    } else {
-        String::new()
-    };
-    let mut sections = vec![Section {
-        title: pair.join(" ↔ "),
-        remark: message::greatest_contact_force_and_number(&warning),
-        charts: vec![
-            chart(
-                axis(message::greatest_contact_force(), FORCE.name()),
-                &|p| FORCE.of(p.peak_force_n),
-                true,
-            ),
-            chart(
-                axis(message::impacts(), ""),
-                &|p| p.impact_count as f64,
-                false,
-            ),
-        ],
-        ..Section::default()
-    }];
-    for gap in gaps.iter().filter(|gap| !gap.rules.is_empty()) {
-        let heads = [
-            message::rule(),
-            message::gap_mm(),
-            message::smallest(),
-            message::impacts(),
-            message::greatest_force_kn(),
-        ];
-        let rows = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
-        let rows = rows.into_iter().map(|(name, rule)| {
-            let worse = rule.worse_outcome();
-            let ratio = rule.ratio_of_both_signs.or(rule.ratio);
-            vec![
-                name,
-                LENGTH.rounded_up(rule.gap_m),
-                ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
-                worse.map_or("–".into(), |own| own.impact_count.to_string()),
-                worse.map_or("–".into(), |own| kn(own.peak_force_n)),
-            ]
-        });
-        sections.push(Section {
-            title: message::rules_under(&gap.motion),
-            remark: message::smallest_gap_without_pounding_mm(
-                LENGTH.rounded_up(gap.of_both_signs_m()),
-            ),
-            table: Some((heads.map(Into::into).to_vec(), rows.collect())),
-            ..Section::default()
-        });
     }
-    sections
+    let dots = dots.into_iter().map(|(name, point)| Series {
+        name,
+        points: vec![point],
+        band: Vec::new(),
+        stroke: Stroke::Dots,
+        colour: 1,
+    });
+    dots.collect()
+}
+
+/// Charts of one pair of neighbours, and the rules.
+fn sections_of(set: &GapSet<'_>) -> Vec<Section> {
+    let mark = |name: &str, metres: f64| Level {
+        name: name.to_owned(),
+        value: LENGTH.of(metres),
+    };
+    let marks = vec![
+        mark(message::gap_of_the_model(), set.governing.model_gap_m),
+        mark(
+            message::gap_needed("").as_str(),
+            set.governing.of_both_signs_m(),
+        ),
+    ];
+    let chart = |y: Axis, series: Vec<Series>| Chart {
+        title: y.name.clone(),
+        x: axis(message::gap(), LENGTH.name()),
+        y,
+        series,
+        marks: marks.clone(),
+        ..Chart::default()
+    };
+    let unmet = set.gaps.iter().flat_map(|gap| points(gap));
+    let unmet = unmet.filter(|(point, _)| point.met == Some(false)).count();
+    let warning = match unmet {
+        0 => String::new(),
+        _ => message::did_not_meet_the_tolerance(counted(unmet, message::point())),
+    };
+    let mut forces = lines(set, &|p| FORCE.of(p.peak_force_n));
+    let only = match set.gaps[..] {
+        [gap] => Some(gap),
+        _ => None,
+    };
+    forces.extend(only.into_iter().flat_map(dots_of_rules));
+    let dots = only.map_or("", |_| message::dots_are_rules());
+    let charts = vec![
+        chart(
+            axis(message::greatest_contact_force(), FORCE.name()),
+            forces,
+        ),
+        chart(
+            axis(message::impacts(), ""),
+            lines(set, &|p| p.impact_count as f64),
+        ),
+    ];
+    let curves = Section {
+        title: set.governing.between.join(" ↔ "),
+        remark: message::greatest_contact_force_and_number(dots, &warning),
+        charts,
+        ..Section::default()
+    };
+    let rules = match only {
+        Some(gap) => rules_of(gap),
+        None => rules_of_records(set),
+    };
+    std::iter::once(curves).chain(rules).collect()
+}
+
+/// Rules under one motion.
+fn rules_of(gap: &CriticalGap) -> Option<Section> {
+    let heads = [
+        message::rule(),
+        message::gap_mm(),
+        message::smallest(),
+        message::impacts(),
+        message::greatest_force_kn(),
+        message::clause(),
+    ]
+    .map(str::to_owned);
+    let rows = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
+    let rows = rows.into_iter().map(|(name, rule)| {
+        let worse = rule.worse_outcome();
+        let ratio = rule.ratio_of_both_signs.or(rule.ratio);
+        vec![
+            name,
+            LENGTH.rounded_up(rule.gap_m),
+            ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
+            worse.map_or("–".into(), |own| own.impact_count.to_string()),
+            worse.map_or("–".into(), |own| kn(own.peak_force_n)),
+            rule.source.clone(),
+        ]
+    });
+    (!gap.rules.is_empty()).then(|| Section {
+        title: message::rules_under(&gap.motion),
+        remark: message::smallest_gap_without_pounding_mm(LENGTH.rounded_up(gap.of_both_signs_m())),
+        table: Some((heads.to_vec(), rows.collect())),
+        ..Section::default()
+    })
+}
+
+/// Rules under every motion of a set: one row each, with the width and its ratio to the gap needed.
+fn rules_of_records(set: &GapSet<'_>) -> Option<Section> {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (column, gap) in set.gaps.iter().enumerate() {
+        for (name, rule) in rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m)) {
+            let ratio = rule.ratio_of_both_signs.or(rule.ratio);
+            let width = LENGTH.rounded_up(rule.gap_m);
+            let cell = match ratio {
+                Some(ratio) => format!("{width} ({ratio:.2})"),
+                None => width,
+            };
+            let row = match rows.iter().position(|row| row[0] == name) {
+                Some(row) => row,
+                None => {
+                    let mut row = vec!["–".to_owned(); set.gaps.len() + 1];
+                    row[0] = name;
+                    rows.push(row);
+                    rows.len() - 1
+                }
+            };
+            rows[row][column + 1] = cell;
+        }
+    }
+    if rows.is_empty() {
+        return None;
+    }
+    let motions = set.gaps.iter().map(|gap| gap.motion.clone());
+    let needed = set.gaps.iter();
+    let needed = needed.map(|gap| LENGTH.rounded_up(gap.of_both_signs_m()));
+    let head = std::iter::once(message::rule().to_owned()).chain(motions);
+    let first = std::iter::once(message::smallest_gap_without_pounding().to_owned()).chain(needed);
+    rows.insert(0, first.collect());
+    Some(Section {
+        title: message::rules_and_records().into(),
+        remark: message::rules_and_records_remark().into(),
+        table: Some((head.collect(), rows)),
+        ..Section::default()
+    })
 }
 
 #[cfg(test)]

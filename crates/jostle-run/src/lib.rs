@@ -68,8 +68,8 @@ pub use contact_advice::{
     contact_advice,
 };
 pub use critical_gap::{
-    CriticalGap, GapOutcome, GapProgress, GapSearch, GapSettings, LeftOutRule, RuleGap,
-    critical_gaps, search_gaps,
+    CriticalGap, GapOutcome, GapProgress, GapSearch, GapSet, GapSettings, LeftOutRule, RuleGap,
+    critical_gaps, gap_sets, search_gaps,
 };
 pub use error::RunError;
 pub use expectation::{Expectation, Pace};

@@ -6,13 +6,16 @@ use jostle_report::message;
 type Words = (&'static str, fn() -> &'static str, bool);
 
 /// What a key says, of those whose own words mean less.
-const WORDS: [Words; 18] = [
+const WORDS: [Words; 21] = [
     ("pga", message::peak_ground_acceleration_axis, true),
     ("reverse", message::key_signs_changed, true),
     ("motion.pga", message::peak_ground_acceleration_axis, true),
     ("motion.scale", message::key_factor_on_the_record, true),
     ("motion.reverse", message::key_signs_changed, true),
     ("motion.angle", message::key_angle_of_incidence, true),
+    ("motion.angle_rad", message::key_angle_of_incidence, true),
+    ("angle", message::key_angle_of_incidence, true),
+    ("angle_rad", message::key_angle_of_incidence, true),
     (
         "motion.match.value",
         message::key_intensity_of_the_target_spectrum,
@@ -114,6 +117,7 @@ mod tests {
             ),
             ("motion.reverse", "signs changed"),
             ("motion.pga", "peak ground acceleration"),
+            ("angle_rad", "angle of incidence"),
             ("link.damping", "link damping"),
             ("my_factor", "my factor"),
             ("gap", "gap"),

@@ -2,8 +2,9 @@
 
 use jostle_io::{DesignKind, Distribution, FactorValues, Level, Shape, TreeValue};
 
-use jostle_report::message;
+use jostle_report::{message, typeset};
 
+use crate::key_words::label_in_words;
 use crate::sampling::quantile;
 use crate::study::Study;
 
@@ -31,11 +32,11 @@ impl Varied {
     pub fn values_in_words(&self) -> String {
         let range = match &self.range[..] {
             "false, true" => format!("{}, {}", message::no(), message::yes()),
-            other => other.to_owned(),
+            other => typeset(other),
         };
         match &self.own[..] {
             "" => message::values_not_stated(range),
-            own => message::values_in_model(range, own),
+            own => message::values_in_model(range, typeset(label_in_words(own))),
         }
     }
 

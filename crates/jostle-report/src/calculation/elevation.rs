@@ -98,6 +98,8 @@ pub(super) fn figure(page: &Page) -> Markup {
         .iter()
         .map(|building| Outline::new(building, low));
     let outlines: Vec<Outline> = outlines.collect();
+    let walls = walls(page).into_iter().filter(|wall| !wall.on_site);
+    let walls: Vec<SceneWall> = walls.collect();
     let count = outlines.len() as f64;
     let wide: f64 = outlines.iter().map(Outline::width).sum();
     let high = outlines.iter().map(Outline::height).fold(0.0, f64::max);
@@ -130,13 +132,21 @@ pub(super) fn figure(page: &Page) -> Markup {
                     @if isolated(&model.buildings[index]) {
                         (bearings(index, *left, scale * outline.width(), own))
                     }
-                    (drawing(&model.buildings[index], index, outline, *left, [scale, ground, pit]))
+                    // Heights are written outside a wall that stands before the building.
+                    @let walled = walls.iter().any(|wall| wall.beside == [None, Some(index)]);
+                    @let beside = if walled { FREE + WALL } else { 0.0 };
+                    (drawing(&model.buildings[index], index, outline, [*left, beside], [scale, ground, pit]))
                 }
-                @for wall in walls(page).into_iter().filter(|wall| !wall.on_site) {
-                    (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground, low]))
+                @for wall in &walls {
+                    (wall_mark(wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground, low]))
                 }
-                @for gap in model.gaps.iter().filter(|gap| in_a_row(model, gap)) {
-                    (gap_mark(gap, &outlines, &places, scale, ground + pit))
+                @for (summary, link) in page.links() {
+                    @for floor in &summary.floors {
+                        (link_mark(link.between, floor.height_m - low, &outlines, &places, [scale, ground]))
+                    }
+                }
+                @for (between, widths) in gaps_of_pairs(model) {
+                    (gap_mark(between, &widths, &outlines, &places, scale, ground + pit))
                 }
             }
         }
@@ -217,7 +227,7 @@ fn drawing(
     building: &Building,
     index: usize,
     outline: &Outline,
-    left: f64,
+    [left, beside]: [f64; 2],
     [scale, ground, pit]: [f64; 3],
 ) -> Markup {
     let is_frame = matches!(building.structure, Structure::Frame(_));
@@ -244,6 +254,11 @@ fn drawing(
     }
     let written = runs.iter().map(|&(count, height, [from, to])| {
         let height = format::plain(format::HEIGHT.of(height), 4);
+        // A lone 6 or 9 can be read upside down.
+        let height = match height.contains('.') {
+            true => height,
+            false => format!("{height}.0"),
+        };
         let text = match count {
             1 => height,
             _ => format!("{count} × {height}"),
@@ -290,7 +305,7 @@ fn drawing(
         }
         text.name x=(round(middle)) y=(round(top - 7.0)) text-anchor="middle" { (building.name) }
         @for (text, at) in &written {
-            text transform=(format!("translate({:.1} {:.1}) rotate(-90)", left - 9.0, y(*at))) text-anchor="middle" { (text) }
+            text transform=(format!("translate({:.1} {:.1}) rotate(-90)", left - beside - 9.0, y(*at))) text-anchor="middle" { (text) }
         }
         @if is_frame {
             @for pair in outline.lines.windows(2) {
@@ -348,28 +363,75 @@ fn in_a_row(model: &jostle::model::Model, gap: &jostle::Gap) -> bool {
     !sides.into_iter().any(|side| stands_on_site(model, side))
 }
 
-/// The width of a gap at the height of its lower building.
+/// Pairs of neighbours with the least widths of the gaps between them, which share a label \[m\].
+fn gaps_of_pairs(model: &jostle::model::Model) -> Vec<([Option<usize>; 2], Vec<f64>)> {
+    let mut pairs: Vec<([Option<usize>; 2], Vec<f64>)> = Vec::new();
+    for gap in model.gaps.iter().filter(|gap| in_a_row(model, gap)) {
+        match pairs
+            .iter_mut()
+            .find(|(between, _)| *between == gap.between)
+        {
+            Some((_, widths)) => widths.push(gap.width()),
+            None => pairs.push((gap.between, vec![gap.width()])),
+        }
+    }
+    pairs
+}
+
+/// A link between two neighbours: a line with a pot half way.
+fn link_mark(
+    between: [Option<usize>; 2],
+    height: f64,
+    outlines: &[Outline],
+    places: &[f64],
+    [scale, ground]: [f64; 2],
+) -> Markup {
+    let side = |side: usize| {
+        let building = between[side].filter(|index| *index < outlines.len())?;
+        let outline = &outlines[building];
+        let above = outline.floors.iter();
+        let floor = above.take_while(|floor| **floor < height - 1e-6).count();
+        let outer = outline.outer.get(floor);
+        let lines = outer.copied().unwrap_or([0, outline.lines.len() - 1]);
+        Some(places[building] + scale * outline.lines[lines[1 - side]])
+    };
+    let wall = |from: f64, sign: f64| from + sign * FREE;
+    let [left, right] = match [side(0), side(1)] {
+        _ if between[0] == between[1] => return html! {},
+        [Some(left), Some(right)] => [left, right],
+        [Some(left), None] => [left, wall(left, 1.0)],
+        [None, Some(right)] => [wall(right, -1.0), right],
+        [None, None] => return html! {},
+    };
+    let (y, middle) = (ground - scale * height, 0.5 * (left + right));
+    html! {
+        path.link d=(format!("M{left:.1},{y:.1}H{:.1}m0,-3v6M{:.1},{:.1}h-5m0,6h5M{:.1},{:.1}v6M{middle:.1},{y:.1}H{right:.1}", middle - 2.0, middle + 3.0, y - 3.0, middle + 3.0, y - 3.0)) {}
+    }
+}
+
+/// The widths of the gaps of a pair, below it.
 fn gap_mark(
-    gap: &jostle::Gap,
+    between: [Option<usize>; 2],
+    widths: &[f64],
     outlines: &[Outline],
     places: &[f64],
     scale: f64,
     ground: f64,
 ) -> Markup {
-    let width = gap.widths.iter().copied().fold(f64::INFINITY, f64::min);
-    let [left, right] = gap
-        .between
-        .map(|side| side.filter(|index| *index < outlines.len()));
+    let [left, right] = between.map(|side| side.filter(|index| *index < outlines.len()));
     let at = match (left, right) {
         (Some(left), _) => places[left] + scale * outlines[left].width() + 0.5 * BESIDE,
         (None, Some(right)) => places[right] - 0.5 * BESIDE,
         (None, None) => return html! {},
     };
-    if !width.is_finite() {
-        return html! {};
-    }
+    let written = widths.iter().map(|width| format::millimetres(*width));
+    let written: Vec<String> = written.collect();
+    let text = match &written[..] {
+        [width] => message::gap_width(width),
+        several => message::gaps_of_widths(several.join(", ")),
+    };
     html! {
-        text x=(round(at)) y=(round(ground + 43.0)) text-anchor="middle" { (message::gap_width(format::millimetres(width))) }
+        text x=(round(at)) y=(round(ground + 43.0)) text-anchor="middle" { (text) }
     }
 }
 

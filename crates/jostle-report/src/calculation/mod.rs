@@ -89,13 +89,35 @@ pub(crate) fn motion_section(page: &Page) -> Markup {
     let Some(motion) = accelerogram(page.motion) else {
         return html! {};
     };
-    let time = (0..motion.points()).map(|i| motion.step() * i as f64);
+    let across = page.motion.across();
+    let across = across.and_then(|across| Some((&across.name, accelerogram(across)?)));
+    let motions: Vec<(&String, &Accelerogram)> =
+        std::iter::once((&page.summary.motion.name, &motion))
+            .chain(across.iter().map(|(name, across)| (*name, across)))
+            .collect();
+    // Of two components both have a name in the legend.
+    let several = motions.len() > 1;
+    let lines = motions
+        .iter()
+        .enumerate()
+        .map(|(index, (name, motion))| Line {
+            name: if several {
+                (*name).clone()
+            } else {
+                String::new()
+            },
+            points: motion
+                .acceleration()
+                .iter()
+                .enumerate()
+                .map(|(i, a)| [motion.step() * i as f64, format::ACCELERATION.of(*a)])
+                .collect(),
+            colour: OF_GROUND[index],
+            dashed: false,
+        });
+    let names: Vec<&str> = motions.iter().map(|(name, _)| &name[..]).collect();
     let record = Plot {
-        title: format!(
-            "{}: {}",
-            message::ground_acceleration(),
-            page.summary.motion.name
-        ),
+        title: format!("{}: {}", message::ground_acceleration(), names.join(", ")),
         x_label: format!("{} [s]", message::time()),
         y_label: format!(
             "{} {}",
@@ -104,42 +126,40 @@ pub(crate) fn motion_section(page: &Page) -> Markup {
         ),
         logarithmic: false,
         aspect: 0.42,
-        lines: vec![Line {
-            name: String::new(),
-            points: time
-                .zip(motion.acceleration())
-                .map(|(t, a)| [t, format::ACCELERATION.of(*a)])
-                .collect(),
-            colour: 6,
-            dashed: false,
-        }],
+        lines: lines.collect(),
     };
     html! {
         section #ground-motion {
             h2 { (message::ground_motion()) }
             div.static-plots {
                 (record.figure())
-                @if let Some(spectrum) = spectrum(calculation, &motion, &page.summary.motion.name) { (spectrum.figure()) }
+                @if let Some(spectrum) = spectrum(calculation, &motions) { (spectrum.figure()) }
             }
         }
     }
 }
 
-fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) -> Option<Plot> {
+/// Colours of lines of the ground: along, across.
+const OF_GROUND: [usize; 2] = [6, 3];
+
+fn spectrum(calculation: &Calculation<'_>, motions: &[(&String, &Accelerogram)]) -> Option<Plot> {
     let damping = calculation.target.map_or(DAMPING, |(_, damping)| damping);
     let periods = spaced_periods(PERIODS.0, PERIODS.1, PERIODS.2);
-    let found = response_spectrum(motion, &periods, &[damping], Reading::Between).ok()?;
-    let values = found.curves.first()?.pseudo_acceleration.iter();
-    let mut lines = vec![Line {
-        name: name.to_owned(),
-        points: periods
-            .iter()
-            .zip(values)
-            .map(|(t, a)| [*t, format::ACCELERATION.of(*a)])
-            .collect(),
-        colour: 6,
-        dashed: false,
-    }];
+    let mut lines = Vec::new();
+    for (index, (name, motion)) in motions.iter().enumerate() {
+        let found = response_spectrum(motion, &periods, &[damping], Reading::Between).ok()?;
+        let values = found.curves.first()?.pseudo_acceleration.iter();
+        lines.push(Line {
+            name: (*name).clone(),
+            points: periods
+                .iter()
+                .zip(values)
+                .map(|(t, a)| [*t, format::ACCELERATION.of(*a)])
+                .collect(),
+            colour: OF_GROUND[index],
+            dashed: false,
+        });
+    }
     if let Some((target, damping)) = calculation.target {
         let points = periods.iter().filter_map(|period| {
             let [first, last] = target.range();

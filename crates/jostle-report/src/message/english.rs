@@ -22,6 +22,7 @@ messages! {
 
     // calculation/elevation
     gap_width(width) = "gap {width}";
+    gaps_of_widths(widths) = "gaps {widths}";
 
     // classes_page
     fragility_of_classes = "Fragility of classes of buildings, with and without pounding";
@@ -33,11 +34,14 @@ messages! {
     classes_place = "position";
     classes_state = "damage state";
     classes_gap = "gap";
-    classes_map_help = "Click a cell to see its curves. A factor below 1 means that damage occurs at a lower intensity. An empty cell has no curve; point at it for the reason.";
+    classes_map_help = "A factor below 1 (red) means that damage occurs at a lower intensity, above 1 (blue) at a higher one. An empty cell has no curve.";
+    classes_map_click = "Click a cell to see its curves; point at an empty one for the reason.";
+    classes_names = "Classes are types of HAZUS or GEM with the level of the code (pre, low, moderate, high). Position: at the end of a row or inside it; floors: slabs in line; columns: slabs against columns.";
+    classes_few_motions(motions) = "{motions} motions are too few for medians and intervals to hold for other motions: use seven or more.";
     classes_curves = "Fragility curves of the selected pair";
     classes_curves_help = "Solid: with contact. Dashed: without. Points: share of cases at each intensity.";
     classes_limits = "Limits";
-    classes_sources(capacities, damage) = "Shear models by the formulas of Lu and Guan. Capacity curves: {capacities}. Damage is peak storey drift by the thresholds of: {damage}.";
+    classes_sources(capacities, damage) = "Shear models by the formulas of Lu and Guan. Capacity curves of {capacities}. Damage states follow from the peak storey drift, with the thresholds of {damage}.";
     classes_limits_text = "Out-of-plane failure of masonry, local damage of columns hit by slabs, torsion and P-Delta are not modelled. Gaps are assumed, not surveyed.";
     classes_factor = "pounding factor: median with contact over median without";
     classes_factor_short = "pounding factor";
@@ -56,6 +60,8 @@ messages! {
 
     // damage
     hinges_yielded_word = "hinges yielded";
+    storeys_yielded_word = "storeys yielded";
+    bearings_yielded_word = "springs of bearings yielded";
     braces_buckled = "braces buckled";
     braces_yielded = "braces yielded";
     struts_cracked = "infill struts cracked";
@@ -162,6 +168,9 @@ messages! {
     damping = "damping";
     vibrating_mass = "vibrating mass";
     peak_base_shear = "peak base shear";
+    peak_force_of_bearings = "peak force of bearings";
+    across_fact = "across";
+    peak_across = "peak across";
     roof_displacement_at_the_end = "roof displacement at the end";
     foundation = "foundation";
     foundation_across = "foundation across";
@@ -201,6 +210,7 @@ messages! {
     and = " and ";
     floors_of_equal_height = "floors of equal height";
     all_floors_against_floors = "all floors, against floors or columns";
+    against_the_wall(floor) = "{floor} against the wall";
     floors_of_pairs(pairs) = "floors {pairs}";
     and_more_pairs_of_points(pairs) = ", and {pairs} more";
     listed_heights(heights) = "{heights} listed heights";
@@ -362,7 +372,7 @@ messages! {
 
     // hinges
     cracking_and_yielding_title = "Cracking and yielding";
-    hinges_with_the_largest_ductility = "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the time of the cursor; the bold line is the path to it from the left end of the charts above.";
+    hinges_with_the_largest_ductility = "Places with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the time of the cursor; the bold line is the path to it from the left end of the charts above.";
     residual_displacement_of_the_roof(residual) = "Residual roof displacement {residual}.";
     damage_of_building(name, damage, dissipated, residual) = "{name}: {damage}. {dissipated} dissipated. {residual}";
     cracked = "cracked";
@@ -379,6 +389,10 @@ messages! {
     one_and_other(left, right) = "{left} and {right}";
     lower_building_m_high(height) = "· lower building {height} {m} high";
     the_line_marks_the_gap = "The line marks the gap.";
+    rules_of_combination = "rules of combination";
+    code_rules = "codes";
+    a_bar_is_cut = "A broken bar is longer than drawn.";
+    double_difference = "DDC: double difference combination, which counts how far both motions are in phase.";
     srss_and_abs_combine = "SRSS and ABS combine the peak displacements at possible contacts";
     of_the_run_without_contact = "of the run without contact.";
     of_this_run_impacts_included = "of this run, impacts included.";
@@ -516,6 +530,7 @@ messages! {
     the_animation_and_the_time = "The animation and the time charts need JavaScript.";
     the_run_ended_early = "The run ended early:";
     peak_force_title = "Peak force";
+    together_force(place, force) = "{place}; all floors together {force}";
     with_force_range(place, least, most) = "{place}; {least} to {most} with other contact stiffness and restitution";
     numerical_error_alone = "Contact stiffness and the choice of records usually matter more: add --sensitivity, and run several records.";
     first_at(instant) = "first at {instant}";
@@ -546,8 +561,9 @@ messages! {
     shear_of_storey(building, storey, peak) = "shear of {building}, storey {storey}: {peak}";
     acceleration_of_floor(building, floor, peak) = "acceleration of {building}, floor {floor}: {peak}";
     peak_ground_acceleration = "Peak ground acceleration";
-    name_and_across(name, across, peak) = "{name} (across {across}, peak {peak})";
-    under_the_motion(name, peak, imbalance) = "Under {name}, peak {peak}. Energy imbalance {imbalance}.";
+    along_and_across(along, across) = "{along}; across: {across}";
+    name_and_peak(name, peak) = "{name}, peak {peak}";
+    under_the_motion(motions, imbalance) = "Under {motions}. Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
     damage_of(what, name) = "{what}, {name}";
     one_of_all(one, all) = "{one} of {all}";
@@ -604,13 +620,13 @@ messages! {
     closing_is_the_displacement = "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; the excess is the indentation.";
     contact_forces_are_positive = "Contact forces are positive in compression: they push the left building left and the right one right. An impact begins when the surfaces touch and ends with the last instant of force before they separate.";
     total_acceleration_includes_the_ground = "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them.";
-    the_input_is_the_work = "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is the difference, relative to the greatest energy up to that time.";
+    the_input_is_the_work = "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic, contact and friction energy add up to it. The imbalance is the difference, relative to the greatest energy up to that time.";
     a_place_has_cracked = "A hinge, storey or other spring has cracked when its deformation exceeds the first corner of its curve in either direction, and yielded when it exceeds the second. Ductility is the peak rotation of a member end, hinge and bent member together, ÷ its yield rotation, or the peak deformation of a storey ÷ its yield deformation. A positive value means tension at the bottom of a beam and on the right side of a column. Dissipated energy is the work minus the energy recoverable by unloading.";
     histories_are_thinned = "Histories are thinned for this page, less during impacts; key figures and tables come from the full run.";
 
     // pushover/chart
     base_shear_of_against(name) = "Base shear of {name} against the displacement of its roof";
-    roof_displacement_mm_above = "roof displacement [{mm}]; above: over the height";
+    roof_displacement_mm_above = "roof displacement [{mm}]; above: as a share of the height [%]";
     base_shear_kn = "base shear [{kN}]";
     of_weight = "of weight [%]";
     first_crack = "first crack";
@@ -640,13 +656,15 @@ messages! {
     has_no_hinges_it(name) = "{name} has no hinges: it is elastic at any drift.";
     was_not_pushed(name) = "{name} was not pushed.";
     resists_up(name, peak, curve, peak_2) = "{name} resists up to {peak} of its weight{curve}, at {peak_2} drift of the roof";
-    its_first_hinge_yields(coefficient) = "; its first hinge yields at {coefficient} of the weight.";
-    gravity_alone_makes_a_hinge = "; gravity alone makes a hinge yield.";
-    no_hinge_yields = "; no hinge yields.";
+    it_first_yields(coefficient, direction) = "; it first yields at {coefficient} of the weight{direction}.";
+    it_yields_under_gravity = "; it yields under gravity alone.";
+    nothing_yields = "; nothing yields.";
     pushed_to(name) = "Pushed to the {name}";
     ended_early = "Ended early:";
     capacity_curve = "Capacity curve";
     to_the(name) = "to the {name}";
+    same_to_the_other_side = "(the same to the other side)";
+    shape_below = "shape drawn below";
     bilinear_equal_energy = "bilinear, equal energy";
     cracks = "cracks";
     yields = "yields";
@@ -664,7 +682,6 @@ messages! {
     first_yield_title = "First yield";
     greatest_base_shear = "Greatest base shear";
     at_the_end = "At the end";
-    hinges_title = "Hinges";
     yielded_yielded(yielded) = "{yielded} yielded";
     of_cracked(cracked, springs) = "{cracked} of {springs} cracked";
     links_title = "Links";
@@ -784,7 +801,10 @@ messages! {
     seen_from_above = "Seen from above";
     site_plan = "Site plan";
     paths_of_roof_corners_times(times) = "paths of roof corners, magnified {times} times";
-    filled_circles_centres_of_mass = "Filled circles: centres of mass; squares: centres of stiffness of the lowest storey; bars: faces, with thickness proportional to their peak force, and with their normal and gap; dots: corners that can make contact. Small numbers are those of the corners of each plan.";
+    filled_circles_centres_of_mass = "Filled circles: centres of mass. Bars: faces, with thickness proportional to their peak force, and with their normal; dots: corners that can make contact; beside them their number and gap. Small numbers are those of the corners of each plan.";
+    open_squares_centres_of_stiffness = "Open squares: centres of stiffness of the lowest storey.";
+    columns_and_lines_of_the_lowest_storey = "Filled squares: columns of the lowest storey; solid lines: frames and beams.";
+    dash_and_dot_grid_lines = "Dash-dotted: grid lines.";
     paths_of_corners = "Paths of corners";
     displacement_of_a_corner_relative = "Displacement of a corner relative to the ground, x to the right and y upwards, both to the same scale; the dot follows the time of the page.";
     how_they_move_in_space = "How they move in space";
@@ -792,7 +812,8 @@ messages! {
     from_the_side = "From the side";
     from_above = "From above";
     forces_in_kn = "forces in {kN}";
-    drag_to_turn_the_view = "Drag to rotate the view, also by touch or with the arrow keys; the wheel zooms. To scale; displacements, rotations and gaps are exaggerated by the same factor. Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest. The black arrow on the ground is the ground acceleration.";
+    drag_to_turn_the_view = "Drag to rotate the view, also by touch or with the arrow keys; the wheel zooms.";
+    the_scene_in_space = "To scale; displacements, rotations and gaps are exaggerated by the same factor. Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest. The black arrow on the ground is the ground acceleration.";
     faces_and_corners = "Faces and corners";
     between = "between";
     kind = "kind";
@@ -948,6 +969,9 @@ messages! {
     mats = "mats";
     wall_member(of, line, storey) = "{of}.wall, line {line}, storey {storey}";
     floor_against_column(floor, of, other, height) = "floor {floor} of {of} against a column of {other}, {height}";
+    floor_against_wall(floor, of, wall) = "floor {floor} of {of} against {wall}";
+    mat_against_wall(of, wall) = "mat of {of} against {wall}";
+    the_wall = "the wall";
     floors_and(left, right) = "floors {left} and {right}";
     height_m(height) = "height {height}\u{a0}{m}";
     single_impact = "1 impact";
@@ -960,17 +984,26 @@ messages! {
     the_motion_reversed = " with the motion reversed";
     motion_reversed(motion) = "{motion}, reversed";
     either_sign_of_the_motion = ", either sign of the motion";
-    under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion} with {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
+    under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion}, peak {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
+    under_any_record(records, pair, gap, sign, motion, strongest) = "Under {records} records: no impact between {pair} for gaps of {gap} {mm} or more{sign} (governing: {motion}).{strongest}";
+    under_motion(motion) = " under {motion}";
+    governing_and_model(motion, width) = "{motion}; the model has {width}";
+    mean_and_deviation(mean, deviation) = "mean of all records {mean}, standard deviation {deviation}";
+    two_records_are_no_design_value = "Two records give no design value: codes require 3, 7 or 11 records.";
+    gap_of_the_model = "gap of the model";
+    dots_are_rules = " Dots: rules that require less than the gap needed.";
+    rules_and_records = "Rules under every record";
+    rules_and_records_remark = "Required gap [{mm}], and in brackets its ratio to the gap needed under that record: the buildings touch where it is below 1.";
     one_record_is_no_design_value = "One record does not give a design value: codes require 3, 7 or 11 records.";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
-    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts against the gap width, with all other gaps too wide to close. Dashed: the motion reversed. Dots: rules that require less than the gap needed. Jumps between adjacent points show that a slightly different gap leads to different impacts.{warning}";
+    greatest_contact_force_and_number(dots, warning) = "Greatest contact force and number of impacts against the gap width, with all other gaps too wide to close. Dashed: the motion reversed.{dots} Jumps between adjacent points show that a slightly different gap leads to different impacts.{warning}";
     greatest_contact_force = "greatest contact force";
     gap_mm = "required gap [{mm}]";
     smallest = "÷ needed";
     greatest_force_kn = "greatest force [{kN}]";
     rules_under(motion) = "Rules under {motion}";
-    smallest_gap_without_pounding_mm(gap) = "Gap needed: {gap} {mm}. Sources: jostle gap --json.";
+    smallest_gap_without_pounding_mm(gap) = "Gap needed: {gap} {mm}. A width below it is followed by impacts; impacts and force are the worse of both signs of the motion.";
 
     // jostle-live/page
     runs_on_this_machine = "runs on this machine. This page uses no network.";
@@ -1067,6 +1100,7 @@ messages! {
     loop_of(force, deformation, name) = "{force} against {deformation}, {name}";
     the_buildings_at_the_current_instant = "The buildings at the current instant";
     ground = "ground";
+    ground_across = "ground, across";
     roof_and_storeys(height, storeys) = "{height} {m}, {storeys} storeys";
     ground_acceleration_title = "Ground acceleration";
     contact_force_title = "Contact force";
@@ -1110,7 +1144,7 @@ messages! {
     fourier_amplitude = "Fourier amplitude";
     at_value_of(name, value, unit) = "at {name} = {value} {unit}";
     deformed_shape_of(name) = "Deformed shape of {name}";
-    hinges_so_far(cracked, yielded, all) = "{cracked} hinges cracked, {yielded} yielded, of {all}";
+    hinges_so_far(cracked, yielded, all) = "{cracked} of {all} cracked, {yielded} of them yielded";
     no_hinges = "no hinges";
     all_gaps = "all gaps";
     gap_of(name) = "gap {name}";
@@ -1179,7 +1213,7 @@ messages! {
 
     // panels
     infill_panels = "Infill panels";
-    damage_by_drift = "Damage state from the peak drift of the bay: shortening of its diagonal ÷ (cosine of its slope × storey height).";
+    damage_by_drift = "States 1 to 4 by the drifts that the model gives for them; state 0 is none. They follow from drift, while struts count as cracked by their own curve, so the two counts can differ. Damage state from the peak drift of the bay: shortening of its diagonal ÷ (cosine of its slope × storey height).";
     panels_of_states(name, counts, total) = "{name}: {counts} of {total} panels.";
     state_in(state, count) = "state {state} in {count}";
     no_state_in_any = "no damage state reached in any";
@@ -1223,6 +1257,10 @@ messages! {
     minimised = "minimised";
     trials_word = "trials";
     seed_word = "seed";
+    trials_and_seed(trials, seed) = "{trials}, seed {seed}";
+    bounds_of(key) = "bounds of {key}";
+    records_and_rule(records, rule, names) = "{records}, {rule}: {names}";
+    smallest_of(objective) = "Smallest {objective}";
     kept_word = "condition";
     records_fact = "records";
     best_trial_and_trade_offs = "the best trial and the trade-offs";
@@ -1243,8 +1281,7 @@ messages! {
     suite_of_no_gap(records) = "{records} records, no gap.";
     suite_pounds(pounding, records) = "The buildings pound under {pounding} of {records} records.";
     suite_without_contact(records) = "No contact under any of the {records} records.";
-    governing_of(name, statistic) = "{name}, {statistic}";
-    greatest_value_of_record(value, record) = "greatest {value}, {record}";
+    greatest_value_of_record(statistic, value, record) = "{statistic}; greatest {value}, {record}";
     peak_displacement_over_height = "Peak displacement";
     peak_storey_drift_over_height = "Peak storey drift";
     peak_drift_of_corners_over_height = "Peak storey drift of corners";
@@ -1281,13 +1318,15 @@ messages! {
     curves_by_cloud = "Lognormal curves from a linear regression of the logarithms of demand and intensity (cloud); dots are observed shares.";
     curves_by_modified_cloud = "Linear regression of the logarithms of demand and intensity for the cases with nonzero demand, times the logistic probability of nonzero demand, with a logistic probability of collapse (modified cloud analysis, Jalayer et al. 2017). Median: the intensity at one half; β: half the logarithm of the ratio of the intensities at Φ(1) and Φ(−1). Dots are observed shares.";
     cases_head = "cases";
-    zero_demand_head = "zero demand";
+    zero_demand_head = "demand of zero";
     events_head = "events";
     median_head = "median";
-    limits_head = "limits";
+    limits_of_median_head = "limits of the median";
+    limits_of_beta_head = "limits of β";
+    few_records_of_fragility(records) = " Distinct records: {records}, too few for other records; use seven or more.";
     fragility_of(event) = "Fragility: {event}";
     pounding_event = "pounding";
-    fragility_in_words(event, intensity, medians) = "Fragility of {event}, median {intensity}: {medians}.";
+    fragility_in_words(event, intensity, medians, few) = "Fragility of {event}, median {intensity} (β: standard deviation of its logarithm): {medians}.{few}";
     bands_hold(method, percent, fits, left_out) = "{method} Bands contain {percent} % of {fits} resampled fits.{left_out}";
     bands_of_few_records(method, percent, fits, records, left_out) = "{method} Bands contain {percent} % of {fits} resampled fits (distinct records: {records}). They do not include the variability of other records, which usually dominates. Use seven records or more.{left_out}";
     median_outside_of_intensities = "the median is outside the computed intensities";
@@ -1304,7 +1343,6 @@ messages! {
     needed_gap = "needed";
     to_a_range = " to ";
     show_all_members(count) = "Show all {count} members";
-    sezen_and_moehle = "Sezen and Moehle";
     gap_needed_of_suite(needed, record, there) = " The greatest gap needed is {needed} ({record}); the gap is {there}. Each record was run with one sign: jostle gap runs both.";
     key_signs_changed = "signs changed";
     key_factor_on_the_record = "factor on the record";
@@ -1329,8 +1367,8 @@ messages! {
     none_required = "none required";
     gap_needed_at(name, widths, of_all) = "Gap needed over {name}: {widths}{of_all}.";
     width_at_level(width, level) = "{width} {mm} at {level}";
-    matters_most(factors) = "What matters most: {factors}.";
-    matters_for(result, factors) = "for {result} {factors}";
+    matters_most(factors) = "What matters most, {factors}.";
+    matters_for(result, factors) = "for {result}: {factors}";
     then_of = ", then ";
     impacts_from_intensity(name, value) = "The buildings touch from {name} {value} on.";
     impacts_at_every_intensity(name, value) = "The buildings touch at every {name} of the study, {value} and more.";
@@ -1345,8 +1383,8 @@ messages! {
     more_than(width) = "> {width}";
     at_most_width(width) = "≤ {width}";
     required_gap = "Gaps required by rules";
-    smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
-    needed_gap_and_rules = "Needed: the smallest gap of this study with no impact at it or at any wider gap. The true value is between it and the next smaller gap of the study. ABS, SRSS and DDC use the peak displacements at possible contacts with the widest gap: the greatest of all records and draws, if none of them closes it.";
+    smallest_gap_and_rules = "Gap needed, and rules";
+    needed_gap_and_rules = "Needed: the greatest closing with the widest gap of the study, where no record closes that. Otherwise the smallest gap of the study with no impact at it or at any wider gap; the shaded band then reaches down to the next smaller gap, and the true value lies in it. ABS, SRSS and DDC use the peak displacements at possible contacts with the widest gap: the greatest of all records and draws, if none of them closes it.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
     gb50011_of_every_intensity = "GB 50011, every intensity";
     gb50011_of_intensities(least, most) = "GB 50011, intensities 6 to 9: {least} to {most} {mm}";
@@ -1365,6 +1403,8 @@ messages! {
     greatest_and_least_over_angle = "greatest and least value over the angle, quantity by quantity";
     over_the_angle = "Over the angle of incidence";
     angles_of_roses = "The angle is measured counter-clockwise from x to the direction of the motion, seen from above; the distance from the centre is the value. Filled dots mark the worst angle. Dashed: the same buildings without contact.";
+    gap_needed_of(pair) = "gap needed, {pair}";
+    gap_needed_at_angle(pair, gap, angle) = "{pair}: the gap needed is greatest at {angle}°, {gap} {mm}.";
     worst_angle_is(angle, group, least, most) = "The worst angle for the contact force is {angle}°{group}; over all angles the greatest force is between {least} and {most} {kN}.";
     greatest_contact_force_title = "Greatest contact force";
     number_of_impacts_title = "Number of impacts";

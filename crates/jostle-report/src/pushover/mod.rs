@@ -10,7 +10,7 @@ use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, LoadPattern, PushEnd, PushPoint, PushedBuilding, Pushover};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{POLICY, STYLE, theme_button};
+use crate::document::{POLICY, STYLE, on_paper, theme_button};
 use crate::format;
 use crate::message;
 use chart::Chart;
@@ -49,6 +49,7 @@ pub fn render_pushover(
                 title { (message::title_pushover(title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
+                (on_paper(title))
             }
             body {
                 header.head {
@@ -110,12 +111,16 @@ fn verdict(one: &PushedBuilding) -> String {
         direction(one, curve),
         percent(curve.drift(peak), 3),
     );
-    text += &match curve.first(Stage::Yielded) {
-        Some(first) if first.roof > 0.0 => {
-            message::its_first_hinge_yields(percent(curve.coefficient(first), 3))
+    let firsts = one.curves.iter().filter_map(|curve| {
+        let first = curve.first(Stage::Yielded)?;
+        Some((curve, first, curve.coefficient(first)))
+    });
+    text += &match firsts.min_by(|a, b| a.2.total_cmp(&b.2)) {
+        Some((curve, first, at)) if first.roof > 0.0 => {
+            message::it_first_yields(percent(at, 3), direction(one, curve))
         }
-        Some(_) => message::gravity_alone_makes_a_hinge().to_owned(),
-        None => message::no_hinge_yields().to_owned(),
+        Some(_) => message::it_yields_under_gravity().to_owned(),
+        None => message::nothing_yields().to_owned(),
     };
     text
 }
@@ -129,8 +134,13 @@ fn building(
     html! {
         section data-building=(index) {
             h2 { (one.building.name) }
-            @for curve in &one.curves {
-                @if one.curves.len() > 1 { h3 { (message::pushed_to(curve.settings.direction.name())) } }
+            @for curve in different(one) {
+                @if one.curves.len() > 1 {
+                    h3 {
+                        (message::pushed_to(curve.settings.direction.name()))
+                        @if different(one).count() < one.curves.len() { " " span.quiet { (message::same_to_the_other_side()) } }
+                    }
+                }
                 @if curve.end != PushEnd::Target {
                     p.note { b { (message::ended_early()) " " } (curve.end.to_string()) "." }
                 }
@@ -146,6 +156,7 @@ fn building(
                         span.key { span.swatch.dashed {} (message::bilinear_equal_energy()) }
                         span.key { span.swatch.round.cracked {} (message::cracks()) }
                         span.key { span.swatch.round.yielded {} (message::yields()) }
+                        span.key { span.swatch.round.here {} (message::shape_below()) }
                     }
                 }
                 (chart.draw(one))
@@ -186,11 +197,44 @@ fn building(
                 div.stage.deformed data-role="scene" {}
             }
             div.cards.beside {
-                @for curve in &one.curves { (pushed_card(one, curve)) (bilinear_card(one, curve)) }
+                @for curve in different(one) { (pushed_card(one, curve)) (bilinear_card(one, curve)) }
             }
-            @for (k, curve) in one.curves.iter().enumerate() { (events(one, k, curve)) }
+            @for (k, curve) in different(one).enumerate() { (events(one, k, curve)) }
         }
     }
+}
+
+/// Difference of base shears over their peak up to which two curves are the same \[–\].
+const ALIKE: f64 = 1e-3;
+
+/// Curves without those that repeat an earlier one to the other side.
+fn different<'a>(one: &'a PushedBuilding<'_>) -> impl Iterator<Item = &'a Pushover> {
+    // Symmetric frames pass the same events in another order: what counts is the curve.
+    let shear = |curve: &Pushover, roof: f64| {
+        let points = &curve.points;
+        let after = points.partition_point(|point| point.roof < roof).max(1);
+        let [low, high] = [points.get(after - 1)?, points.get(after).or(points.last())?];
+        let span = high.roof - low.roof;
+        let share = if span > 0.0 {
+            (roof - low.roof) / span
+        } else {
+            0.0
+        };
+        Some(low.base_shear + share * (high.base_shear - low.base_shear))
+    };
+    let alike = move |a: &Pushover, b: &Pushover| {
+        let most = ALIKE * a.peak().base_shear.abs();
+        let [end, other] = [a, b].map(|curve| curve.points.last().map_or(0.0, |end| end.roof));
+        (end - other).abs() <= ALIKE * end
+            && a.points.iter().all(|point| {
+                shear(b, point.roof).is_some_and(|other| (other - point.base_shear).abs() <= most)
+            })
+    };
+    let curves = one.curves.iter().enumerate();
+    curves.filter_map(move |(index, curve)| {
+        let repeats = one.curves[..index].iter().any(|known| alike(known, curve));
+        (!repeats).then_some(curve)
+    })
 }
 
 fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
@@ -224,7 +268,7 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
     let springs = one.building.equations.springs.len();
     let [cracked, yielded] = curve.counts(springs);
     tiles.push((
-        message::hinges_title(),
+        message::cracking_and_yielding_title(),
         message::yielded_yielded(yielded),
         message::of_cracked(cracked, springs),
     ));

@@ -110,7 +110,8 @@ fn hinges(one: &PushedBuilding) -> Vec<Value> {
         .iter()
         .map(Some)
         .chain(std::iter::repeat(None));
-    ends.zip(places)
+    let mut shown: Vec<Value> = ends
+        .zip(places)
         .map(|([a, b], place)| {
             let [dx, dy] = match place {
                 Some(
@@ -145,7 +146,13 @@ fn hinges(one: &PushedBuilding) -> Vec<Value> {
             };
             json!([a, b, dx, dy])
         })
-        .collect()
+        .collect();
+    // Struts and other springs without a mark count as well.
+    shown.resize(
+        one.building.equations.springs.len().max(shown.len()),
+        Value::Null,
+    );
+    shown
 }
 
 fn curve(one: &PushedBuilding, curve: &Pushover, in_space: Option<&SpaceShape>) -> Value {

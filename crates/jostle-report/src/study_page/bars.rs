@@ -100,7 +100,7 @@ pub(super) fn figure(bars: &Bars) -> Markup {
 
 /// A value beside its bar; shares have three decimals.
 fn beside(value: f64, unit: &str) -> String {
-    match unit.is_empty() && value.abs() < 1.0 {
+    match unit.is_empty() && value.abs() < 1.0 && value != 0.0 {
         true => format::fixed(value, 3),
         false => number(value),
     }

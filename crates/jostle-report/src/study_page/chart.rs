@@ -7,7 +7,7 @@ use crate::scale::{Scale, name_upwards};
 use crate::{format, message};
 
 /// Lines over an axis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
     /// Heading; may be empty.
     pub title: String,
@@ -19,13 +19,17 @@ pub struct Chart {
     pub series: Vec<Series>,
     /// Horizontal lines.
     pub levels: Vec<Level>,
+    /// Vertical lines.
+    pub marks: Vec<Level>,
     /// The least that the vertical axis reaches up to.
     pub reach: f64,
     /// Whether the series are levels of one quantity from low to high, such as intensities, and not things of their own.
     pub ordered: bool,
+    /// Whether the vertical axis has a logarithmic scale; only points above zero are drawn then.
+    pub logarithmic: bool,
 }
 
-/// A horizontal line with its name.
+/// A horizontal or vertical line with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
     /// Name.
@@ -78,14 +82,39 @@ const COLOURS: usize = 7;
 const LEGEND: usize = 14;
 
 /// Height of a line of names, and width of a letter, about.
-const LINE: f64 = 12.0;
-const LETTER: f64 = 5.8;
+const LINE: f64 = 15.0;
+const LETTER: f64 = 8.0;
 
-/// The name of a dot that stands alone, and where it is written.
+/// The name of a dot that stands alone, or of a vertical line, and where it is written.
 struct DotName<'a> {
     name: &'a str,
     dot: [f64; 2],
     at: [f64; 2],
+}
+
+impl Series {
+    /// Whether it is one dot, which has its name beside it.
+    fn is_alone(&self) -> bool {
+        self.stroke == Stroke::Dots && self.points.len() == 1
+    }
+}
+
+/// Names of vertical lines, one below the other, on the side that has more room.
+fn mark_names<'a>(chart: &'a Chart, px: &dyn Fn(f64) -> f64) -> Vec<DotName<'a>> {
+    let named = chart.marks.iter().enumerate().map(|(row, mark)| {
+        let at = px(mark.value);
+        let width = LETTER * mark.name.chars().count() as f64;
+        let x = match at > 0.6 * WIDTH {
+            true => at - 4.0 - width,
+            false => at + 4.0,
+        };
+        DotName {
+            name: &mark.name,
+            dot: [at, TOP],
+            at: [x, TOP + LINE * (row as f64 + 1.0)],
+        }
+    });
+    named.collect()
 }
 
 /// Names beside their dots, moved up or down until none covers another one.
@@ -94,9 +123,9 @@ fn dot_names<'a>(
     px: &dyn Fn(f64) -> f64,
     py: &dyn Fn(f64) -> f64,
 ) -> Vec<DotName<'a>> {
-    let alone = |series: &&Series| series.stroke == Stroke::Dots && series.points.len() == 1;
-    let mut names: Vec<DotName<'a>> = Vec::new();
-    for series in chart.series.iter().filter(alone) {
+    let mut names = mark_names(chart, px);
+    let marks = names.len();
+    for series in chart.series.iter().filter(|own| own.is_alone()) {
         let dot = [px(series.points[0][0]), py(series.points[0][1])];
         let width = |name: &str| LETTER * name.chars().count() as f64;
         let x = (dot[0] + 6.0).min(WIDTH - width(&series.name));
@@ -120,24 +149,34 @@ fn dot_names<'a>(
             at: [x, y.unwrap_or(dot[1] - 4.0)],
         });
     }
-    names
+    names.split_off(marks)
 }
 
 pub(super) fn figure(chart: &Chart) -> Markup {
-    let points = || chart.series.iter().flat_map(|series| &series.points);
+    let points = || {
+        let all = chart.series.iter().flat_map(|series| &series.points);
+        all.filter(|p| !chart.logarithmic || p[1] > 0.0)
+    };
     let bands = || chart.series.iter().flat_map(|series| &series.band);
-    let most_x = points().map(|p| p[0]).fold(0.0, f64::max);
+    let marked = chart.marks.iter().map(|mark| mark.value);
+    let most_x = points().map(|p| p[0]).chain(marked).fold(0.0, f64::max);
     let most_y = points()
         .map(|p| p[1])
         .chain(bands().map(|band| band[1]))
         .chain(chart.levels.iter().map(|level| level.value))
         .fold(chart.reach, f64::max);
     let x = Scale::rounded([0.0, most_x], [LEFT, WIDTH - RIGHT], 1.0, 4.5);
-    let y = Scale::rounded([0.0, most_y], [HEIGHT - BOTTOM, TOP], 1.0, 4.5);
+    let up = [HEIGHT - BOTTOM, TOP];
+    let least_y = points().map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let y = match chart.logarithmic && least_y.is_finite() {
+        true => Scale::logarithmic([least_y / 1.2, most_y.max(least_y) * 1.2], up),
+        false => Scale::rounded([0.0, most_y], up, 1.0, 4.5),
+    };
     let (px, py) = (|value: f64| x.at(value), |value: f64| y.at(value));
     let path = |points: &[[f64; 2]]| {
         let mut text = String::new();
-        for (index, [x, y]) in points.iter().enumerate() {
+        let drawn = points.iter().filter(|p| !chart.logarithmic || p[1] > 0.0);
+        for (index, [x, y]) in drawn.enumerate() {
             let letter = if index == 0 { 'M' } else { 'L' };
             text += &format!("{letter}{:.1} {:.1}", px(*x), py(*y));
         }
@@ -167,7 +206,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
     let named: Vec<&Series> = chart
         .series
         .iter()
-        .filter(|series| !series.name.is_empty())
+        .filter(|series| !series.name.is_empty() && !series.is_alone())
         .collect();
     let label = message::one_over_other(&chart.y.name, &chart.x.name);
     html! {
@@ -191,6 +230,9 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                         path.study-band d=(area(series)) style=(colour(series.colour)) {}
                     }
                 }
+                @for mark in &chart.marks {
+                    line.study-level x1=(px(mark.value)) x2=(px(mark.value)) y1=(TOP) y2=(HEIGHT - BOTTOM) {}
+                }
                 @for level in &chart.levels {
                     line.study-level x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(level.value)) y2=(py(level.value)) {}
                 }
@@ -199,7 +241,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                         path.line.thin[series.stroke == Stroke::Thin].heavy[series.stroke == Stroke::Heavy].dashed[series.stroke == Stroke::Dashed] d=(path(&series.points)) style=(colour(series.colour)) { title { (series.name) } }
                     }
                     @if matches!(series.stroke, Stroke::Dots | Stroke::Dotted) {
-                        @for [x, y] in &series.points {
+                        @for [x, y] in series.points.iter().filter(|p| !chart.logarithmic || p[1] > 0.0) {
                             circle.dot cx=(format!("{:.1}", px(*x))) cy=(format!("{:.1}", py(*y))) r="3" style=(colour(series.colour)) {
                                 title { (series.name) " " (number(*x)) " " (chart.x.unit) ": " (number(*y)) " " (chart.y.unit) }
                             }
@@ -213,6 +255,9 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                     text.study-level-name x=(format!("{:.1}", at[0])) y=(format!("{:.1}", at[1])) { (name) }
                 }
                 // Above the lines, which would cross them.
+                @for DotName { name, at, .. } in mark_names(chart, &px) {
+                    text.study-level-name x=(format!("{:.1}", at[0])) y=(format!("{:.1}", at[1])) { (name) }
+                }
                 @for level in &chart.levels {
                     text.study-level-name x=(WIDTH - RIGHT - 4.0) y=(py(level.value) - 4.0) text-anchor="end" { (level.name) }
                 }
@@ -245,9 +290,7 @@ mod tests {
             x: axis(),
             y: axis(),
             series: (0..8).map(dot).collect(),
-            levels: Vec::new(),
-            reach: 0.0,
-            ordered: false,
+            ..Chart::default()
         };
         let names = dot_names(&chart, &|x| LEFT + 2.0 * x, &|y| HEIGHT - BOTTOM - 4.0 * y);
         assert_eq!(names.len(), 8);

@@ -8,7 +8,7 @@ mod suite;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::document::{POLICY, STYLE, theme_button, theme_script};
+use crate::document::{POLICY, STYLE, on_paper, theme_button, theme_script};
 use crate::format;
 use crate::message;
 
@@ -26,7 +26,7 @@ const WORDY: usize = 24;
 const LONG: usize = 60;
 
 /// An axis in the unit that people read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// Name.
     pub name: String,
@@ -43,6 +43,8 @@ pub struct StudyPage {
     pub title: String,
     /// What it says, in sentences.
     pub headline: Vec<String>,
+    /// The answers, before the facts: name, value and what it refers to.
+    pub answers: Vec<[String; 3]>,
     /// Facts about the study: name and value.
     pub facts: Vec<(String, String)>,
     /// Heat maps, under a heading for each group of them.
@@ -97,6 +99,7 @@ pub fn render_study(page: &StudyPage) -> String {
                 title { (page.title) " – " (kind.to_lowercase()) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
+                (on_paper(&page.title))
             }
             body {
                 header.head {
@@ -108,6 +111,13 @@ pub fn render_study(page: &StudyPage) -> String {
                 }
                 main {
                     @for sentence in &page.headline { p.verdict { (sentence) } }
+                    @if !page.answers.is_empty() {
+                        div.tiles {
+                            @for [name, value, note] in &page.answers {
+                                div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
+                            }
+                        }
+                    }
                     div.tiles {
                         @for (name, value) in &page.facts {
                             div.tile { div.tile-name { (name) } div.tile-value.study-value.in-words[value.chars().count() > WORDY] { (value) } }
@@ -155,9 +165,10 @@ fn charts(section: &Section) -> Markup {
                 div.study-roses { @for rose in &section.roses { (rose::figure(rose)) } }
             }
             @if let Some((heads, rows)) = &section.table {
+                @let numbers: Vec<bool> = (0..heads.len()).map(|column| is_of_numbers(rows, column)).collect();
                 div.scroll {
                     table {
-                        thead { tr { @for head in heads { th { (head) } } } }
+                        thead { tr { @for (head, number) in heads.iter().zip(&numbers) { th.number[*number] scope="col" { (head) } } } }
                         tbody {
                             @for row in rows {
                                 tr {
@@ -165,7 +176,7 @@ fn charts(section: &Section) -> Markup {
                                         @if index + 1 == row.len() && row.len() < heads.len() {
                                             td.study-wrap colspan=(heads.len() + 1 - row.len()) { (cell) }
                                         } @else {
-                                            td.study-long[cell.chars().count() > LONG] { (cell) }
+                                            td.number[numbers[index]] .study-long[cell.chars().count() > LONG] { @if numbers[index] { (format::grouped(cell)) } @else { (cell) } }
                                         }
                                     }
                                 }
@@ -176,6 +187,20 @@ fn charts(section: &Section) -> Markup {
             }
         }
     }
+}
+
+/// Whether a column of a table has numbers, and nothing else but dashes.
+fn is_of_numbers(rows: &[Vec<String>], column: usize) -> bool {
+    let whole = rows.iter().filter(|row| row.len() > column);
+    let mut cells = whole
+        .map(|row| &row[column][..])
+        .filter(|cell| !matches!(*cell, "" | "–"))
+        .peekable();
+    let is_number = |cell: &str| {
+        let digits = cell.trim_start_matches(['−', '-', '>', '≤', ' ']);
+        digits.starts_with(|first: char| first.is_ascii_digit())
+    };
+    cells.peek().is_some() && cells.all(is_number)
 }
 
 fn runs(page: &StudyPage) -> Markup {
@@ -225,15 +250,25 @@ fn files(page: &StudyPage) -> Markup {
     }
 }
 
-/// A number with the fewest digits.
+/// A number of the axes and cells of figures, with three digits.
 fn number(value: f64) -> String {
+    short(value, 3)
+}
+
+/// A peak as captions, tables and sentences have it, with four digits.
+fn peak(value: f64) -> String {
+    short(value, 4)
+}
+
+/// A number with the fewest digits.
+fn short(value: f64, digits: i32) -> String {
     if value == 0.0 {
         return "0".into();
     }
     if !value.is_finite() {
         return "–".into();
     }
-    let text = format::significant(value, 3);
+    let text = format::significant(value, digits);
     if text.contains('.') && !text.contains('⁰') && !text.contains('·') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -241,9 +276,15 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A number with three significant digits and its unit, which may be empty.
+/// A number with four significant digits and its unit, which may be empty.
 #[must_use]
 pub fn with_unit(value: f64, unit: &str) -> String {
+    format!("{} {unit}", peak(value)).trim_end().to_owned()
+}
+
+/// The same with three digits.
+#[must_use]
+pub fn with_three_digits(value: f64, unit: &str) -> String {
     format!("{} {unit}", number(value)).trim_end().to_owned()
 }
 

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::{Axis, number};
+use super::{Axis, number, peak};
 use crate::message;
 use crate::site_drawing::compass_bearing;
 
@@ -149,7 +149,7 @@ pub(super) fn figure(rose: &Rose) -> Markup {
                     @for [angle, value] in &petal.points {
                         @let [x, y] = place(*angle, RADIUS * value / end);
                         circle.dot cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="2" style=(colour(petal.colour)) {
-                            title { (petal.name) " " (number(*angle)) "°: " (number(*value)) " " (rose.value.unit) }
+                            title { (petal.name) " " (number(*angle)) "°: " (peak(*value)) " " (rose.value.unit) }
                         }
                     }
                 }
@@ -162,7 +162,7 @@ pub(super) fn figure(rose: &Rose) -> Markup {
                         @if let Some([angle, value]) = petal.worst() {
                             @let [x, y] = place(angle, RADIUS * value / end);
                             circle.study-worst cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="5" style=(colour(petal.colour)) {
-                                title { (message::worst_angle(&petal.name, number(angle), number(value), &rose.value.unit)) }
+                                title { (message::worst_angle(&petal.name, number(angle), peak(value), &rose.value.unit)) }
                             }
                         }
                     }
@@ -185,9 +185,9 @@ pub(super) fn figure(rose: &Rose) -> Markup {
 fn worst_in_words(rose: &Rose, value: f64, angle: f64) -> String {
     let unit = &rose.value.unit;
     match rose.north {
-        None => message::value_at_angle(number(value), unit, number(angle)),
+        None => message::value_at_angle(peak(value), unit, number(angle)),
         Some(north) => message::value_at_bearing(
-            number(value),
+            peak(value),
             unit,
             number(angle),
             number(compass_bearing(angle, north)),

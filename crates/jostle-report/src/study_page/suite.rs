@@ -3,7 +3,8 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{OWN_STYLE, Section, charts};
-use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
+use crate::document::{CALCULATION_STYLE, POLICY, STYLE, on_paper, theme_button, theme_script};
+use crate::format::grouped;
 use crate::{checks, format, message};
 use jostle::results::summary::Finding;
 
@@ -26,7 +27,8 @@ pub struct SuitePage {
     pub checks: Vec<Finding>,
     /// Records, in their order.
     pub records: Vec<SuiteRow>,
-    /// Name with unit, governing value, mean, standard deviation, 16 to 84 %, greatest value, its record.
+    /// Name with unit, governing value, mean, standard deviation, 16 to 84 %, greatest value, its record, governing value without
+    /// contact.
     pub quantities: Vec<Vec<String>>,
     /// `mean` or `maximum`: which column governs.
     pub statistic: &'static str,
@@ -43,22 +45,26 @@ pub struct SuiteRow {
     pub name: String,
     /// Address of its report.
     pub link: Option<String>,
-    /// Peak \[m/s²\], scale, duration \[s\], impacts, peak force \[kN\].
+    /// Peak \[m/s²\], scale, duration \[s\], impacts, peak force \[kN\], gap needed \[mm\].
     pub cells: Vec<String>,
     /// Why it did not reach its end; empty if it did.
     pub remark: String,
 }
 
-fn record_columns() -> [(&'static str, &'static str); 5] {
+fn record_columns() -> [(&'static str, &'static str); 6] {
     [
         (message::peak(), format::ACCELERATION.name()),
         (message::scale(), ""),
         (message::duration(), "s"),
         (message::impacts(), ""),
         (message::peak_force(), format::FORCE.name()),
+        (
+            message::smallest_gap_without_pounding(),
+            format::LENGTH.name(),
+        ),
     ]
 }
-fn quantity_columns() -> [&'static str; 6] {
+fn quantity_columns() -> [&'static str; 7] {
     [
         message::governing(),
         message::mean(),
@@ -66,6 +72,7 @@ fn quantity_columns() -> [&'static str; 6] {
         message::percentiles_16_to_84(),
         message::greatest(),
         message::of_record(),
+        message::without_contact(),
     ]
 }
 
@@ -83,6 +90,7 @@ pub fn render_suite(page: &SuitePage) -> String {
                 title { (message::title_suite(&page.title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) (PreEscaped(CALCULATION_STYLE)) }
+                (on_paper(&page.title))
             }
             body {
                 @if !page.warnings.is_empty() {
@@ -101,7 +109,7 @@ pub fn render_suite(page: &SuitePage) -> String {
                     p.verdict { (page.headline) }
                     div.tiles {
                         @for [name, value, note] in &page.tiles {
-                            div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
+                            div.tile { p.tile-name { (name) } p.tile-value { (grouped(value)) } p.tile-note { (note) } }
                         }
                     }
                     p.quiet { (page.rule) }
@@ -144,9 +152,9 @@ fn quantities(page: &SuitePage) -> Markup {
                             tr {
                                 @for (index, cell) in row.iter().enumerate() {
                                     @if index == 0 { th scope="row" { (cell) } }
-                                    @else if index == 1 { td.number { b { (cell) } } }
+                                    @else if index == 1 { td.number { b { (grouped(cell)) } } }
                                     @else if index == 6 { td { (cell) } }
-                                    @else { td.number.governs[index == governs] { (cell) } }
+                                    @else { td.number.governs[index == governs] { (grouped(cell)) } }
                                 }
                             }
                         }
@@ -179,7 +187,7 @@ fn records(page: &SuitePage) -> Markup {
                                         None => (row.name),
                                     }
                                 }
-                                @for cell in &row.cells { td.number { (cell) } }
+                                @for cell in &row.cells { td.number { (grouped(cell)) } }
                                 td.study-wrap { (row.remark) }
                             }
                         }

@@ -22,6 +22,7 @@ fn page() -> StudyPage {
         kind: String::new(),
         title: "A <study> & more".into(),
         headline: vec!["The buildings pound in 5 of 6 cases.".into()],
+        answers: vec![["Gap needed".into(), "137 mm".into(), "el-centro".into()]],
         facts: vec![("cases".into(), "6".into())],
         maps: vec![(
             "El Centro".into(),
@@ -54,7 +55,7 @@ fn page() -> StudyPage {
                     value: 0.5,
                 }],
                 reach: 1.0,
-                ordered: false,
+                ..Chart::default()
             }],
             bars: vec![Bars {
                 title: "Force".into(),

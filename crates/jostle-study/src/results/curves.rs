@@ -65,9 +65,8 @@ impl Results<'_> {
                     x: x_axis.clone(),
                     y: axis,
                     series: series.collect(),
-                    levels: Vec::new(),
-                    reach: 0.0,
                     ordered: true,
+                    ..Chart::default()
                 });
             }
         }
@@ -119,9 +118,7 @@ impl Results<'_> {
                 x: x_axis.clone(),
                 series: series.collect(),
                 y: axis,
-                levels: Vec::new(),
-                reach: 0.0,
-                ordered: false,
+                ..Chart::default()
             });
         }
         (!charts.is_empty()).then(|| Section {
@@ -248,9 +245,7 @@ impl Results<'_> {
                     x,
                     y,
                     series,
-                    levels: Vec::new(),
-                    reach: 0.0,
-                    ordered: false,
+                    ..Chart::default()
                 }],
                 ..Section::default()
             });

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use jostle::linear::sort_by;
 use jostle_io::{FragilityMethod, FragilityWanted, Values};
 use jostle_report::message;
-use jostle_report::{Axis, Chart, Section, Series, Stroke};
+use jostle_report::{Axis, Chart, Section, Series, Stroke, with_unit};
 
 use super::{Results, words};
 use crate::statistics::{
@@ -192,7 +192,7 @@ fn in_words(wanted: &FragilityWanted, fitted: &[Fitted]) -> String {
         let found = match &one.curve {
             Ok(curve) => {
                 let fit = curve.equivalent();
-                let median = jostle_report::with_unit(size * fit.median, &axis.unit);
+                let median = with_unit(size * fit.median, &axis.unit);
                 format!("{median} (β {:.2})", fit.dispersion)
             }
             Err(error) => error.to_string(),
@@ -203,7 +203,12 @@ fn in_words(wanted: &FragilityWanted, fitted: &[Fitted]) -> String {
         }
     });
     let each = each.collect::<Vec<_>>().join("; ");
-    message::fragility_in_words(event(wanted), &axis.name, each)
+    let records = fitted.iter().map(|one| one.records).min().unwrap_or(0);
+    let few = match records < ENOUGH_RECORDS {
+        true => message::few_records_of_fragility(records),
+        false => String::new(),
+    };
+    message::fragility_in_words(event(wanted), &axis.name, each, few)
 }
 
 /// Cases that the plain cloud omits, in a sentence; `None` if there are none.
@@ -417,9 +422,9 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
         message::zero_demand_head(),
         message::events_head(),
         message::median_head(),
-        message::limits_head(),
+        message::limits_of_median_head(),
         "β",
-        message::limits_head(),
+        message::limits_of_beta_head(),
     ];
     let heads = heads.map(str::to_owned);
     let rows = fitted.iter().map(|one| {
@@ -440,17 +445,16 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
                     true => message::extrapolated(),
                     false => "",
                 };
-                row.push(format!("{:.4} {}{mark}", size * curve.median, x.unit));
+                let median = with_unit(size * curve.median, &x.unit);
+                row.push(format!("{median}{mark}"));
                 row.push(band.as_ref().map_or("–".into(), |band| {
-                    format!(
-                        "{:.4} … {:.4}",
-                        size * band.median[0],
-                        size * band.median[1]
-                    )
+                    let [low, high] = band.median.map(|end| with_unit(size * end, ""));
+                    message::low_to_high(low, high)
                 }));
                 row.push(format!("{:.3}", curve.dispersion));
                 row.push(band.as_ref().map_or("–".into(), |band| {
-                    format!("{:.3} … {:.3}", band.dispersion[0], band.dispersion[1])
+                    let [low, high] = band.dispersion.map(|end| format!("{end:.3}"));
+                    message::low_to_high(low, high)
                 }));
             }
             (Err(error), _) => row.push(error.to_string()),
@@ -476,9 +480,8 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
                 unit: String::new(),
             },
             series,
-            levels: Vec::new(),
             reach: 1.0,
-            ordered: false,
+            ..Chart::default()
         }],
         ..Section::default()
     }

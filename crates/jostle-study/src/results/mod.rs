@@ -22,7 +22,7 @@ use jostle_io::{
     write_values_parquet,
 };
 use jostle_report::message;
-use jostle_report::{Axis, Section, StudyPage, render_study};
+use jostle_report::{Axis, Section, StudyPage, render_study, typeset};
 
 use crate::dataset::{Table, visit_parts};
 use crate::key_words::{key_in_words, label_in_words};
@@ -305,7 +305,7 @@ impl Results<'_> {
                     format!(
                         "{} {}",
                         key_in_words(&factor.name),
-                        label_in_words(&crate::design::value_of(factor, choice).2)
+                        typeset(label_in_words(&crate::design::value_of(factor, choice).2))
                     )
                 })
                 .collect();
@@ -315,6 +315,7 @@ impl Results<'_> {
             kind: String::new(),
             title: study.file.title.clone(),
             headline,
+            answers: Vec::new(),
             facts,
             maps,
             sections,

@@ -17,6 +17,8 @@ use crate::study::{Study, at_rest};
 
 /// Rules drawn over the intensity, by their names.
 const DRAWN: [&str; 3] = ["ABS", "SRSS", "DDC"];
+/// Greatest closing: that of a case without an impact is the gap needed under its motion.
+const CLOSING: &str = "closing_peak_m";
 /// Groups of cases that are drawn at most, one for each colour.
 const MOST_GROUPS: usize = 7;
 /// Intensities whose gap the head of the page names at most.
@@ -46,7 +48,7 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
             })
         })
     });
-    all.cloned().collect()
+    all.cloned().chain([CLOSING.to_owned()]).collect()
 }
 
 impl Results<'_> {
@@ -64,10 +66,20 @@ impl Results<'_> {
         let (gap_axis, gap_size) = self.input_axis(right);
         let (axis, size) = self.input_axis(up);
         let impacts = self.table.column("impact_count").to_vec();
+        let closings = self.table.column(CLOSING).to_vec();
         let groups = self.grouped(&self.others(&[right, up]));
         let levels = self.numbers(up);
         let widest = self.numbers(right).last().copied().unwrap_or(0.0);
         let rules = Rules::new(self.study);
+        // Contacts that are set back close further than the gap.
+        let is_one_width = rules.as_ref().is_some_and(|rules| {
+            let gaps = rules.at_rest.gaps.iter();
+            let mut widths = gaps.flat_map(|gap| gap.contacts.iter().map(|own| own.width_m));
+            let first = widths.next();
+            widths.all(|width| first.is_some_and(|first| (width - first).abs() < 1e-9))
+        });
+        // Whether some widths are known between two of the study only.
+        let mut bracketed = false;
         // Greatest gap needed at every intensity, infinite where the widest of the study is hit.
         let mut most = vec![0.0_f64; levels.len()];
         let mut series = Vec::new();
@@ -87,18 +99,27 @@ impl Results<'_> {
                     .filter_map(|case| gaps[*case])
                     .filter(|gap| *gap > hit)
                     .fold(f64::INFINITY, f64::min);
+                // All records and draws alike: the same cases at every intensity.
+                let apart = cases().filter(|case| gaps[**case] == Some(widest));
+                let no_impact = apart.clone().all(|case| impacts[*case] == Some(0.0));
+                // Without an impact the closing is that of free buildings, and so the gap itself. Several widths close differently.
+                let closing = apart.clone().map(|case| closings.get(*case).copied()?);
+                let closing = closing.collect::<Option<Vec<f64>>>();
+                let closing = closing.filter(|all| no_impact && is_one_width && !all.is_empty());
+                let exact = closing.map(|all| all.into_iter().fold(0.0, f64::max));
+                let free = exact.unwrap_or(free);
+                bracketed |= exact.is_none();
                 *most = most.max(free);
                 if free.is_finite() {
                     needed.push([size * level, gap_size * free]);
-                    between.push([gap_size * hit.max(0.0), gap_size * free]);
+                    let below = exact.unwrap_or(hit.max(0.0));
+                    between.push([gap_size * below, gap_size * free]);
                 }
                 if groups.len() > 1 {
                     continue;
                 }
-                // All records and draws alike: the same cases at every intensity.
-                let apart = cases().filter(|case| gaps[**case] == Some(widest));
                 if let Some(rules) = &rules
-                    && apart.clone().all(|case| impacts[*case] == Some(0.0))
+                    && no_impact
                 {
                     let found = apart.filter_map(|case| self.required(*case, rules));
                     let greatest = found.reduce(|a, b| std::array::from_fn(|i| a[i].max(b[i])));
@@ -137,7 +158,7 @@ impl Results<'_> {
         }
         let narrowest = self.numbers(right).first().copied().unwrap_or(0.0);
         let width = |gap: f64| {
-            if gap <= narrowest {
+            if gap <= narrowest && bracketed {
                 message::at_most_width(LENGTH.rounded_up(gap))
             } else if gap.is_finite() {
                 LENGTH.rounded_up(gap)
@@ -187,7 +208,7 @@ impl Results<'_> {
                 series,
                 levels: levels_of(&codes, gap_size, gap_size * widest),
                 reach: gap_size * widest,
-                ordered: false,
+                ..Chart::default()
             }],
             ..Section::default()
         })

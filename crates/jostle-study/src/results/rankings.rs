@@ -34,9 +34,14 @@ pub(super) fn responses(study: &Study) -> Vec<String> {
         return study.file.responses.clone();
     }
     let names = study.layout.names();
-    ["peak_force_n", "impact_count", "closing_peak_m"]
+    // The gap needed, not the closing: with contact that is the gap plus the indentation.
+    let needed = names
+        .iter()
+        .filter(|name| name.ends_with(".closing_without_contact_m"));
+    ["peak_force_n", "impact_count"]
         .into_iter()
         .filter(|name| names.contains(name))
+        .chain(needed.map(|name| &name[..]))
         .map(str::to_owned)
         .collect()
 }

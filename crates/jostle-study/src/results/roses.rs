@@ -2,9 +2,9 @@
 
 use jostle::linear::sort_by;
 use jostle_io::Values;
-use jostle_io::shown::FORCE;
+use jostle_io::shown::{FORCE, LENGTH};
 use jostle_report::message;
-use jostle_report::{Axis, Petal, Rose, Section};
+use jostle_report::{Axis, Petal, Rose, Section, with_unit};
 
 use super::{Results, words};
 use crate::study::{Study, StudyError};
@@ -125,6 +125,7 @@ impl Results<'_> {
             message::greatest_and_least_over_angle(),
             table(&curves),
         )?;
+        self.say_needed(&curves);
         self.say_worst(&curves);
         let mut groups: Vec<String> = Vec::new();
         for curve in &curves {
@@ -136,7 +137,8 @@ impl Results<'_> {
         let north = input.and_then(|input| input.north).map(f64::to_degrees);
         let mut roses: Vec<(String, Rose)> = Vec::new();
         for curve in &curves {
-            let (owner, quantity) = parts(&curve.column);
+            let (_, quantity) = parts(&curve.column);
+            let owner = &owner_of(&curve.column)[..];
             let is_free = is_free(&curve.column);
             // Buildings share a rose, unless curves differ by what else varies.
             let key = if groups.len() > 1 {
@@ -248,8 +250,23 @@ impl Results<'_> {
         self.said.push(message::worst_angle_is(
             degrees(*angle),
             group,
-            FORCE.number(least.1, 0),
-            FORCE.number(*force, 0),
+            with_unit(FORCE.of(least.1), ""),
+            with_unit(FORCE.of(*force), ""),
+        ));
+    }
+
+    /// A sentence about the gap needed, over all angles.
+    fn say_needed(&mut self, curves: &[Curve]) {
+        let gaps = curves.iter();
+        let gaps = gaps.filter(|curve| parts(&curve.column).1 == NEEDED);
+        let worst = gaps.filter_map(|curve| Some((curve, curve.worst()?)));
+        let Some((curve, (angle, gap, _))) = worst.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
+            return;
+        };
+        self.said.push(message::gap_needed_at_angle(
+            owner_of(&curve.column),
+            LENGTH.rounded_up(*gap),
+            degrees(*angle),
         ));
     }
 }
@@ -268,6 +285,15 @@ fn degrees(angle: f64) -> String {
 /// Building or pair, and quantity, of a column such as `A.drift_peak`. Names of buildings may have dots.
 fn parts(column: &str) -> (&str, &str) {
     column.rsplit_once('.').unwrap_or(("", column))
+}
+
+/// Building or pair in words: names of pairs are joined by a hyphen.
+fn owner_of(column: &str) -> String {
+    let (owner, quantity) = parts(column);
+    match OF_GAPS.contains(&quantity) {
+        true => owner.replacen('-', " ↔ ", 1),
+        false => owner.to_owned(),
+    }
 }
 
 /// A quantity as the title of its rose.
@@ -316,18 +342,10 @@ fn rows(curves: &[Curve], several: bool) -> (Vec<String>, Vec<Vec<String>>) {
     }
     let row = |curve: &Curve| {
         let (worst, least) = (curve.worst()?, curve.least()?);
-        let (owner, quantity) = parts(&curve.column);
+        let (_, quantity) = parts(&curve.column);
+        let owner = &owner_of(&curve.column)[..];
         let (axis, size) = words::axis(quantity);
-        let shown = |value: f64| {
-            let value = size * value;
-            let text = match value.abs() {
-                a if a >= 100.0 || value == value.round() => format!("{value:.0}"),
-                a if a >= 10.0 => format!("{value:.1}"),
-                a if a >= 1.0 => format!("{value:.2}"),
-                _ => format!("{value:.3}"),
-            };
-            format!("{text} {}", axis.unit).trim_end().to_owned()
-        };
+        let shown = |value: f64| with_unit(size * value, &axis.unit);
         let free = match is_free(&curve.column) {
             true => message::and_without_contact(),
             false => "",

@@ -56,9 +56,7 @@ impl Results<'_> {
                         },
                         marginal(&points),
                     ],
-                    levels: Vec::new(),
-                    reach: 0.0,
-                    ordered: false,
+                    ..Chart::default()
                 });
             }
         }

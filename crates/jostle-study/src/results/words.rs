@@ -58,6 +58,10 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
         "closing_peak" => message::greatest_closing_axis().into(),
         "pga" | "motion.pga" => message::peak_ground_acceleration_axis().into(),
         "gap.width" => message::gap().into(),
+        other if other.ends_with(".closing_without_contact") => {
+            let pair = other.trim_end_matches(".closing_without_contact");
+            message::gap_needed_of(pair.replacen('-', " ↔ ", 1))
+        }
         other => key_in_words(other),
     };
     let axis = Axis {

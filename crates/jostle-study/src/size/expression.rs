@@ -68,7 +68,7 @@ const KINDS: [&str; 5] = ["link", "gap", "contact", "building", "floor"];
 const MOST_NAMED: usize = 12;
 
 /// Units of results by the ends of their names, the longer ones first.
-const SUFFIXES: [(&str, Dimension); 9] = [
+pub(super) const SUFFIXES: [(&str, Dimension); 9] = [
     ("_m_s2", Dimension::Acceleration),
     ("_n_s_m", Dimension::Damping),
     ("_m_s", Dimension::Speed),

@@ -1,10 +1,10 @@
 //! The page of a search: the best trial, what it costs to keep more or less, how the search went.
 
 use jostle::linear::sort_by;
-use jostle_report::message;
 use jostle_report::{Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study};
+use jostle_report::{message, typeset};
 
-use super::text::{in_words, number, rounded, shown};
+use super::text::{in_words, number, rounded, rounded_up, shown};
 use super::{SizeResults, Trial};
 use crate::row::Status;
 
@@ -28,6 +28,17 @@ fn series(name: &str, points: Vec<[f64; 2]>, stroke: Stroke, colour: usize) -> S
     }
 }
 
+/// Greatest over least value above zero beyond which an axis is logarithmic \[–\].
+const WIDE: f64 = 100.0;
+
+/// Whether points spread over so many decades upwards that a straight axis hides the small ones.
+fn is_wide(series: &[Series]) -> bool {
+    let values = series.iter().flat_map(|series| &series.points);
+    let values = values.map(|point| point[1]).filter(|value| *value > 0.0);
+    let most = values.clone().fold(0.0, f64::max);
+    most > WIDE * values.fold(f64::INFINITY, f64::min)
+}
+
 impl SizeResults {
     /// The page; it loads nothing from outside.
     #[must_use]
@@ -37,15 +48,28 @@ impl SizeResults {
                 message::minimised().to_owned(),
                 in_words(&self.objective.text),
             ),
-            (message::trials_word().into(), self.trials.len().to_string()),
-            (message::seed_word().into(), self.seed.to_string()),
+            (
+                message::trials_word().into(),
+                message::trials_and_seed(self.trials.len(), self.seed),
+            ),
         ];
         for condition in &self.conditions {
-            facts.insert(1, (message::kept_word().into(), in_words(&condition.text)));
+            let words = typeset(&in_words(&condition.text));
+            facts.insert(1, (message::kept_word().into(), words));
         }
-        if self.motions.len() > 1 {
-            let records = format!("{}, {}", self.motions.len(), self.over);
-            facts.push((message::records_fact().into(), records));
+        for ((name, _), [low, high]) in self.inputs.iter().zip(&self.bounds) {
+            let range = message::low_to_high(typeset(low), typeset(high));
+            facts.push((message::bounds_of(in_words(name)), range));
+        }
+        let [records, peak] = &self.shaken;
+        let records = match self.motions.len() {
+            1 => records.clone(),
+            several => message::records_and_rule(several, self.over, records),
+        };
+        facts.push((message::records_fact().into(), records));
+        if !peak.is_empty() {
+            let peak = typeset(peak);
+            facts.push((message::peak_ground_acceleration_axis().into(), peak));
         }
         let mut sections = Vec::new();
         for index in 0..self.conditions.len() {
@@ -58,6 +82,7 @@ impl SizeResults {
             kind: message::kind_of_sizing().into(),
             title: self.title.clone(),
             headline: self.headline(),
+            answers: self.answers(),
             facts,
             sections: sections
                 .into_iter()
@@ -76,6 +101,31 @@ impl SizeResults {
             ],
             ..StudyPage::default()
         })
+    }
+
+    /// The tile of the best trial.
+    fn answers(&self) -> Vec<[String; 3]> {
+        let best = self.best().and_then(|best| Some((best, best.objective?)));
+        let tile = best.map(|(best, objective)| {
+            let inputs = self.other_inputs();
+            let mut note: Vec<String> = inputs
+                .map(|(index, (name, _))| {
+                    let value = typeset(&rounded(&best.inputs[index].1));
+                    format!("{} {value}", in_words(name))
+                })
+                .collect();
+            let lefts = self.conditions.iter().zip(&best.kept);
+            note.extend(lefts.filter_map(|(condition, left)| {
+                let left = number((*left)?, &condition.left.suffix);
+                Some(format!("{} {left}", in_words(&condition.left.text)))
+            }));
+            [
+                message::smallest_of(in_words(&self.objective.text)),
+                rounded_up(objective, &self.objective.suffix),
+                note.join("; "),
+            ]
+        });
+        tile.into_iter().collect()
     }
 
     /// Objective of completed trials over something, those that keep all conditions apart.
@@ -125,10 +175,9 @@ impl SizeResults {
                 title: String::new(),
                 x: axis(&condition.left.text, &condition.left.suffix),
                 y: axis(&self.objective.text, &self.objective.suffix),
+                logarithmic: is_wide(&all),
                 series: all,
-                levels: Vec::new(),
-                reach: 0.0,
-                ordered: false,
+                ..Chart::default()
             }],
             ..Section::default()
         }
@@ -150,7 +199,7 @@ impl SizeResults {
             }
         }
         let levels = best.map(|best| Level {
-            name: number(best, &self.objective.suffix),
+            name: rounded_up(best, &self.objective.suffix),
             value: size * best,
         });
         Section {
@@ -165,8 +214,7 @@ impl SizeResults {
                     y: axis(&self.objective.text, &self.objective.suffix),
                     series: vec![series("", points, Stroke::Line, 0)],
                     levels: levels.into_iter().collect(),
-                    reach: 0.0,
-                    ordered: false,
+                    ..Chart::default()
                 }]
             },
             ..Section::default()
@@ -186,14 +234,14 @@ impl SizeResults {
             let suffix = suffix.into_iter().find(|suffix| column.ends_with(suffix));
             let suffix = suffix.unwrap_or_default();
             let size = shown(suffix).1;
+            let dots = self.dots(|trial| Some(size * trial.inputs[index].0?), [0, 6]);
             Chart {
                 title: String::new(),
                 x: axis(name, suffix),
                 y: axis(&self.objective.text, &self.objective.suffix),
-                series: self.dots(|trial| Some(size * trial.inputs[index].0?), [0, 6]),
-                levels: Vec::new(),
-                reach: 0.0,
-                ordered: false,
+                logarithmic: is_wide(&dots),
+                series: dots,
+                ..Chart::default()
             }
         });
         Section {
@@ -219,7 +267,7 @@ impl SizeResults {
             let mut row: Vec<String> = inputs
                 .map(|(index, _)| rounded(&trial.inputs[index].1))
                 .collect();
-            row.push(number(
+            row.push(rounded_up(
                 trial.objective.unwrap_or(f64::NAN),
                 &self.objective.suffix,
             ));

@@ -59,6 +59,9 @@ pub struct SizeResults {
     /// Names of the quantities in use.
     quantities: Vec<String>,
     pub(super) motions: Vec<String>,
+    /// Records and peak of the model in words, and bounds of the varied keys; for the page.
+    pub(super) shaken: [String; 2],
+    pub(super) bounds: Vec<[String; 2]>,
     /// The best trial under all motions with the other sign; `None` where both signs were searched, or no trial keeps the conditions.
     pub reversed: Option<Trial>,
     pub(super) over: &'static str,
@@ -136,6 +139,14 @@ impl SizeResults {
                 .collect(),
             motions: (problem.shaking.iter())
                 .map(|shaking| shaking.name.clone())
+                .collect(),
+            shaken: ["motion.record", "motion.pga"].map(|key| {
+                let values = problem.study.file.base.values(key);
+                let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+                values.join(", ")
+            }),
+            bounds: (problem.variables.iter())
+                .map(|variable| variable.bounds.clone())
                 .collect(),
             reversed: None,
             over: problem.over.name(),

@@ -6,6 +6,7 @@ use std::path::Path;
 use jostle_io::shown::{ACCELERATION, ENERGY, FORCE, LARGE_DASHPOT, LENGTH, MASS, MOMENT, SPEED};
 
 use super::SizeResults;
+use super::expression::SUFFIXES;
 use crate::key_words::key_in_words;
 
 /// Unit in which numbers with the end of such a name are shown, and its size.
@@ -54,7 +55,7 @@ pub(super) fn number(value: f64, suffix: &str) -> String {
 }
 
 /// A least value in words: rounded up, so that what it meets is met, to one decimal or three digits.
-fn rounded_up(value: f64, suffix: &str) -> String {
+pub(super) fn rounded_up(value: f64, suffix: &str) -> String {
     let (unit, size) = shown(suffix);
     let shown_value = size * value;
     let decimals = if shown_value == 0.0 || shown_value.abs() >= 1.0 {
@@ -95,10 +96,33 @@ pub(super) fn in_words(text: &str) -> String {
     let words = replaced
         .split(' ')
         .map(|word| match Some(word).filter(is_key) {
-            Some(key) => key_in_words(key),
+            Some(key) => result_in_words(key),
             None => word.to_owned(),
         });
     words.collect::<Vec<_>>().join(" ")
+}
+
+/// A key or a result in words: `floor.displacement_max_m` is "greatest displacement of a floor".
+fn result_in_words(key: &str) -> String {
+    const ENDS: [(&str, &str); 3] = [("_peak", "peak"), ("_max", "greatest"), ("_min", "least")];
+    let suffixes = SUFFIXES.iter().map(|(suffix, _)| *suffix);
+    let known = suffixes.filter(|suffix| key.ends_with(suffix));
+    let longest = known.max_by_key(|suffix| suffix.len());
+    let Some((quantity, words)) = longest.and_then(|suffix| {
+        let plain = key.strip_suffix(suffix)?;
+        ENDS.iter()
+            .find_map(|(end, words)| Some((plain.strip_suffix(end)?, words)))
+    }) else {
+        return key_in_words(key);
+    };
+    let spaced = |text: &str| text.replace('_', " ");
+    match quantity.rsplit_once('.') {
+        Some((owner @ ("floor" | "building" | "gap" | "link" | "contact"), quantity)) => {
+            format!("{words} {} of a {owner}", spaced(quantity))
+        }
+        Some((owner, quantity)) => format!("{words} {} of {owner}", spaced(quantity)),
+        None => format!("{words} {}", spaced(quantity)),
+    }
 }
 
 /// A value as written into the model, with five digits.
@@ -156,10 +180,15 @@ impl SizeResults {
             )),
         }
         sentences.extend(self.under_the_other_sign());
+        if self.motions.len() == 1 {
+            sentences.push(jostle_report::message::one_record_is_no_design_value().to_owned());
+        }
         sentences.push(if self.converged {
             format!("Converged after {} trials.", self.trials.len())
         } else if self.stopped {
             format!("Stopped after {} trials.", self.trials.len())
+        } else if self.best.is_none() {
+            format!("Stopped at {} trials.", self.trials.len())
         } else {
             let lower = match self.best() {
                 Some(_) => " The smallest may lie lower; raise --trials.",

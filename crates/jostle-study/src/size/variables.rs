@@ -19,7 +19,7 @@ pub(super) struct Variable {
     /// Path in the model file.
     path: String,
     /// Lower and upper bound as typed, or from the model.
-    bounds: [String; 2],
+    pub(super) bounds: [String; 2],
 }
 
 /// Reads `NAME=LOW..HIGH`, or `NAME` with bounds around the value of the model.

@@ -136,6 +136,13 @@ impl SuiteResults {
                         number("duration_s", 2),
                         impacts.to_string(),
                         FORCE.number(force, 1),
+                        match gaps()
+                            .filter_map(|gap| gap["closing_without_contact_m"].as_f64())
+                            .max_by(f64::total_cmp)
+                        {
+                            Some(needed) => LENGTH.number(needed, 1),
+                            None => "–".to_owned(),
+                        },
                     ],
                     remark: record.reason.clone().unwrap_or_default(),
                 }
@@ -218,11 +225,15 @@ impl SuiteResults {
             };
             let record = self.records[quantity.maximum_record].motion();
             [
-                message::governing_of(name, statistic),
+                name.clone(),
                 with_unit(quantity.governing),
                 match quantity.governing == quantity.maximum {
                     true => record.to_owned(),
-                    false => message::greatest_value_of_record(with_unit(quantity.maximum), record),
+                    false => message::greatest_value_of_record(
+                        statistic,
+                        with_unit(quantity.maximum),
+                        record,
+                    ),
                 },
             ]
         });
@@ -249,10 +260,22 @@ impl SuiteResults {
                     form.number(quantity.p84)
                 ),
                 form.number(quantity.maximum),
-                self.records[quantity.maximum_record].motion().to_owned(),
+                match quantity.maximum > 0.0 {
+                    true => self.records[quantity.maximum_record].motion().to_owned(),
+                    false => "–".to_owned(),
+                },
+                self.without_contact(&quantity.name)
+                    .map_or("–".into(), |free| form.number(free)),
             ]
         });
         lines.collect()
+    }
+
+    /// The governing value of the runs without contact, if they have the quantity.
+    fn without_contact(&self, name: &str) -> Option<f64> {
+        let (owner, end) = name.rsplit_once('.')?;
+        let free = self.quantity(&format!("{owner}.without_contact.{end}"))?;
+        Some(free.governing)
     }
 
     /// Spectra of the motions as used, their mean, and the target.
@@ -307,9 +330,7 @@ impl SuiteResults {
                 x: axis(message::period_axis(), "s"),
                 y: axis(message::pseudo_acceleration_axis(), ACCELERATION.name()),
                 series,
-                levels: Vec::new(),
-                reach: 0.0,
-                ordered: false,
+                ..Chart::default()
             }],
             ..Section::default()
         })
@@ -369,9 +390,16 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
     if with.is_empty() || heights.is_empty() {
         return None;
     }
+    // Displacements are relative to the ground.
+    let is_of_ground = peak
+        .unit
+        .is_some_and(|unit| unit.si_name() == LENGTH.si_name());
     let drawn = |values: &[f64], stroke, colour, name: &str| {
         let mut series = line(&[], &[], stroke, colour, name);
         let mut below = 0.0;
+        if is_of_ground && heights[0] > 0.0 {
+            series.points.push([0.0, 0.0]);
+        }
         for (value, height) in values.iter().zip(&heights) {
             if peak.of_storey {
                 series.points.push([*value, HEIGHT.of(below)]);
@@ -418,9 +446,7 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
         ),
         y: axis(message::height_axis(), HEIGHT.name()),
         series,
-        levels: Vec::new(),
-        reach: 0.0,
-        ordered: false,
+        ..Chart::default()
     })
 }
 

@@ -55,7 +55,13 @@ pub(super) fn shown(name: &str) -> Shown {
 
 impl Shown {
     pub(super) fn number(self, value: f64) -> String {
-        format!("{:.*}", self.decimals, self.factor * value)
+        let shown = self.factor * value;
+        // Counts are whole unless they are means.
+        let decimals = match self.unit.is_empty() && self.decimals == 1 && shown.fract() == 0.0 {
+            true => 0,
+            false => self.decimals,
+        };
+        format!("{shown:.decimals$}")
     }
 }
 

@@ -290,7 +290,7 @@ fn sampled_studies_have_figures() {
         "{ranking}"
     );
     assert!(
-        ranking.contains("closing_peak_m,gap,") && ranking.contains("rank_correlation"),
+        ranking.contains("impact_count,gap,") && ranking.contains("rank_correlation"),
         "{ranking}"
     );
     assert!(out.join("cases.csv").exists());

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use jostle_io::shown::LENGTH;
 use jostle_io::{Format, StudyFile};
-use jostle_run::{GapSettings, critical_gaps};
+use jostle_run::{CriticalGap, GapSettings, critical_gaps};
 use jostle_study::{RunSettings, Study, finish, run};
 use jostle_testkit::files::sound;
 
@@ -52,11 +52,11 @@ path = "motion.pga"
 values = ["0.2 g", "0.3 g"]
 "#;
 
-#[test]
-fn rules_of_a_study_are_those_of_the_gap() {
+/// The page of the study of a model, and what a search of its gap finds.
+fn page_and_search(model: &str) -> (String, CriticalGap) {
     let folder = tempfile::tempdir().expect("a folder");
     let path: &Path = folder.path();
-    std::fs::write(path.join("pair.toml"), SET_BACK).expect("the model");
+    std::fs::write(path.join("pair.toml"), model).expect("the model");
     let file = StudyFile::parse("study.toml", STUDY, Format::Toml, path, None);
     let study = Study::new(file.unwrap_or_else(|error| panic!("{error}")));
     let study = study.unwrap_or_else(|error| panic!("{error}"));
@@ -74,7 +74,7 @@ fn rules_of_a_study_are_those_of_the_gap() {
     let page = std::fs::read_to_string(out.join("report.html")).expect("the page");
     let page = page.replace(" class=\"\"", "");
 
-    let input = sound(SET_BACK);
+    let input = sound(model);
     let opened = jostle_run::Opened::new(input, "pair".to_owned());
     let opened = opened.unwrap_or_else(|error| panic!("{error}"));
     let (motion, _) = opened.plan_of(&opened.input).expect("a plan");
@@ -86,20 +86,47 @@ fn rules_of_a_study_are_those_of_the_gap() {
     };
     let found = critical_gaps(&opened.input.model, &motion, &settings, &|| false);
     let found = found.unwrap_or_else(|error| panic!("{error}"));
-    // What touches is the podium, whose floor lies at 3 m.
-    assert_eq!(found[0].height_m, 3.0);
-    let width = |name: &str| {
-        let rule = found[0].rules.iter().find(|rule| rule.rule == name);
-        LENGTH.rounded_up(rule.unwrap_or_else(|| panic!("{name}")).gap_m)
+    (page, found.into_iter().next().expect("a gap"))
+}
+
+/// Cells of a table: the widths of some rules.
+fn cells(found: &CriticalGap, rules: &[&str]) -> String {
+    let cell = |name: &&str| {
+        let rule = found.rules.iter().find(|rule| rule.rule == **name);
+        number(&LENGTH.rounded_up(rule.unwrap_or_else(|| panic!("{name}")).gap_m))
     };
-    let cells = ["ABS", "SRSS", "DDC"].map(|name| format!("<td>{}</td>", width(name)));
-    assert!(page.contains(&cells.concat()), "{cells:?}");
-    // No gap of the study is hit, so that the narrowest is all that is known.
-    for head in [
-        "<td>≤ 150</td>",
+    rules.iter().map(cell).collect()
+}
+
+fn number(text: &str) -> String {
+    format!("<td class=\"number\">{text}</td>")
+}
+
+#[test]
+fn rules_of_a_study_are_those_of_the_gap() {
+    let (page, found) = page_and_search(SET_BACK);
+    // What touches is the podium, whose floor lies at 3 m.
+    assert_eq!(found.height_m, 3.0);
+    let cells = cells(&found, &["ABS", "SRSS", "DDC"]);
+    // No gap of the study is hit, and floors above the podium close further than it: the narrowest is all that is known.
+    for text in [
+        &cells[..],
+        &number("≤ 150"),
         "ABS [mm]",
         "Gap needed over peak ground acceleration",
     ] {
-        assert!(page.contains(head), "{head}");
+        assert!(page.contains(text), "{text}");
     }
+}
+
+/// Where no gap of the study is hit and all contacts are equally far apart, the closing is the gap needed itself.
+#[test]
+fn the_gap_needed_of_a_study_is_that_of_a_search() {
+    let set_back = "[[building.column]]\nline = 3\nstoreys = [2, 3]\nomit = true\n";
+    let straight = SET_BACK.replace(set_back, "");
+    assert_ne!(straight, SET_BACK);
+    let (page, found) = page_and_search(&straight);
+    let needed = number(&LENGTH.rounded_up(found.gap_m));
+    let row = needed + &cells(&found, &["ABS", "SRSS"]);
+    assert!(page.contains(&row), "{row}");
 }

@@ -304,6 +304,7 @@ impl Column {
             (Kind::Energy(EnergyTerm::Damped), _) => ("damped", Unit::J, "dissipated by viscous damping until then"),
             (Kind::Energy(EnergyTerm::Hysteretic), _) => ("hysteretic", Unit::J, "dissipated by hinges until then"),
             (Kind::Energy(EnergyTerm::Contact), _) => ("contact", Unit::J, "energy of contacts: dissipated until then, and stored"),
+            (Kind::Energy(EnergyTerm::Friction), _) => ("friction", Unit::J, "dissipated by friction along faces until then, with what its springs hold; only with friction"),
         };
         let owner = match (self.owner, self.kind) {
             (Owner::Run, Kind::Energy(_)) => "energy",
@@ -385,6 +386,8 @@ pub enum EnergyTerm {
     Hysteretic,
     /// Energy of contacts: dissipated plus, during an impact, stored.
     Contact,
+    /// Dissipated by friction along faces; recorded only with friction.
+    Friction,
 }
 
 impl EnergyTerm {

@@ -4,7 +4,7 @@ use super::{Known, Tally, quoted};
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
     Building, Diagonal, DiagonalKind, FramePlace, Hinges, LEVEL_TOLERANCE, STANDARD_GRAVITY,
-    Structure,
+    Structure, capacity_rule_title,
 };
 use crate::results::summary::{MemberSummary, RatioSummary};
 use crate::structure::{MemberPlace, SpringPlace};
@@ -120,7 +120,7 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
                     1e3 * acceptance.rotation_rad,
                     1e3 * last.rotation_rad,
                     last.level,
-                    acceptance.rule
+                    capacity_rule_title(acceptance.rule)
                 );
                 (member.name.clone(), text)
             });
@@ -140,7 +140,8 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(times, || {
             let text = format!(
                 "the shear in {} at an impact is {times:.1} times its capacity ({})",
-                member.name, ratio.rule
+                member.name,
+                capacity_rule_title(ratio.rule)
             );
             (member.name.clone(), text)
         });
@@ -173,7 +174,7 @@ pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(times, || {
             let text = format!(
                 "the moment in {} at the point of impact is {times:.1} times its capacity ({}), but the column is elastic there",
-                member.name, ratio.rule
+                member.name, capacity_rule_title(ratio.rule)
             );
             (member.name.clone(), text)
         });

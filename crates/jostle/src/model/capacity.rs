@@ -135,6 +135,19 @@ pub enum RotationMeasure {
     Chord,
 }
 
+/// A rule of capacity as it is written: `gb50010` is `GB 50010`.
+#[must_use]
+pub fn capacity_rule_title(key: &str) -> &str {
+    match key {
+        "gb50010" => "GB 50010",
+        "en1998-3" => "EN 1998-3",
+        "asce41" => "ASCE 41",
+        "aci318" => "ACI 318",
+        "sezen-moehle" => "Sezen and Moehle",
+        other => other,
+    }
+}
+
 /// Capacity of a member by one rule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RuleCapacity {

@@ -36,7 +36,7 @@ use crate::hysteresis::Hysteresis;
 pub use base::{AcrossBase, Base, MassDamping};
 pub use capacity::{
     AcrossCapacity, CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity,
-    ShearCapacity,
+    ShearCapacity, capacity_rule_title,
 };
 pub use diagonal::{
     Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Reach, Rise,

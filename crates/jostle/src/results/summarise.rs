@@ -578,11 +578,7 @@ fn energy_summary(run: &Run) -> EnergySummary {
         soil_j: soil.map(|[all, _]| all),
         hysteretic_j: energy.hysteretic,
         contact_j: energy.contact,
-        friction_j: system
-            .contacts
-            .iter()
-            .any(|c| c.friction.is_some())
-            .then_some(energy.friction),
+        friction_j: system.has_friction().then_some(energy.friction),
         imbalance: energy.imbalance(),
         worst_imbalance: energy.worst_imbalance,
     }

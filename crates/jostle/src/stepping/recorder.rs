@@ -65,6 +65,9 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
         }
     }
     columns.extend(EnergyTerm::ALL.map(Column::energy));
+    if system.has_friction() {
+        columns.push(Column::energy(EnergyTerm::Friction));
+    }
     if grounds.part {
         columns.push(Column::energy(EnergyTerm::Ground));
         let places = 0..grounds.places();
@@ -209,25 +212,38 @@ impl Recorder {
             put(state.velocity[turn]);
             put(state.acceleration[turn]);
         }
-        let Energy {
-            input,
-            ground: energy_of_grounds,
-            kinetic,
-            strain,
-            damped,
-            hysteretic,
-            contact,
-            ..
-        } = energy;
-        [input, kinetic, strain, damped, hysteretic, contact]
-            .into_iter()
-            .for_each(&mut put);
-        if grounds.part {
-            std::iter::once(energy_of_grounds)
-                .chain(grounds.displacements())
-                .for_each(put);
-        }
+        put_energies(system, &energy, grounds, &mut put);
         debug_assert!(row.next().is_none(), "every column has a value");
+    }
+}
+
+/// Energies, and what grounds that move apart add, in the order of [`columns`].
+pub(crate) fn put_energies(
+    system: &System,
+    energy: &Energy,
+    grounds: &RunGrounds<'_>,
+    put: &mut impl FnMut(f64),
+) {
+    let Energy {
+        input,
+        ground,
+        kinetic,
+        strain,
+        damped,
+        hysteretic,
+        contact,
+        friction,
+        ..
+    } = *energy;
+    let all = [input, kinetic, strain, damped, hysteretic, contact].into_iter();
+    all.for_each(&mut *put);
+    if system.has_friction() {
+        put(friction);
+    }
+    if grounds.part {
+        std::iter::once(ground)
+            .chain(grounds.displacements())
+            .for_each(put);
     }
 }
 

@@ -195,6 +195,11 @@ impl System {
         normal.chain(self.frictions().map(|friction| &friction.ports))
     }
 
+    /// Whether faces have friction.
+    pub(crate) fn has_friction(&self) -> bool {
+        self.frictions().next().is_some()
+    }
+
     /// Whether its buildings move in both horizontal directions and turn.
     #[must_use]
     pub fn is_in_space(&self) -> bool {

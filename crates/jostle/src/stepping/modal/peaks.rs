@@ -17,7 +17,7 @@ pub(super) use crate::stepping::extremes::BEYOND;
 use crate::stepping::extremes::greatest_in_step;
 use crate::stepping::floor_peaks::{FloorPeaks, columns_of, columns_of_corners};
 use crate::stepping::plan_drifts::PlanDrifts;
-use crate::stepping::recorder::{closing_of, columns, forces_of_faces};
+use crate::stepping::recorder::{closing_of, columns, forces_of_faces, put_energies};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
@@ -679,21 +679,7 @@ impl Peaks {
             put(stroke);
             put(speed);
         }
-        [
-            energy.input,
-            energy.kinetic,
-            energy.strain,
-            energy.damped,
-            energy.hysteretic,
-            energy.contact,
-        ]
-        .into_iter()
-        .for_each(&mut put);
-        if grounds.part {
-            std::iter::once(energy.ground)
-                .chain(grounds.displacements())
-                .for_each(put);
-        }
+        put_energies(system, energy, grounds, &mut put);
         debug_assert!(row.next().is_none(), "every column has a value");
     }
 }
