@@ -580,6 +580,15 @@ pub fn write_members_parquet(
     write_by_column(path, summary, &names, rows, |index| table[index].2())
 }
 
+/// Storey and line of a column, or floor and span of a beam; of a column in space the line x.
+fn storey_and_line(member: MemberPlace) -> (usize, usize) {
+    match member {
+        MemberPlace::Column { line, storey } => (storey, line),
+        MemberPlace::Beam { floor, span } => (floor, span),
+        MemberPlace::InSpace(place) => (place.storey() + 1, place.crossings()[0][0] + 1),
+    }
+}
+
 /// Kind, level, line and end of a place.
 fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usize>, &'static str) {
     match place {
@@ -595,18 +604,15 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
                 floor, bay, end, ..
             },
         ) => ("beam", Some(floor), Some(bay), end.of_beam()),
-        Some(SpringPlace::Struck { storey, line, .. }) => {
+        Some(SpringPlace::Struck { member, .. }) => {
+            let (storey, line) = storey_and_line(member);
             ("column", Some(storey), Some(line), "struck")
         }
         Some(SpringPlace::Shear { storey, line, end }) => {
             ("column shear", Some(storey), Some(line), end.of_column())
         }
         Some(SpringPlace::Fibre { member, end, .. }) => {
-            let (storey, line) = match member {
-                MemberPlace::Column { line, storey } => (storey, line),
-                MemberPlace::Beam { floor, span } => (floor, span),
-                MemberPlace::InSpace(place) => (place.storey() + 1, place.crossings()[0][0] + 1),
-            };
+            let (storey, line) = storey_and_line(member);
             ("column fibre", Some(storey), Some(line), end.of_column())
         }
         Some(SpringPlace::Sliding { member, .. }) => match member {

@@ -195,9 +195,9 @@ hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 
 kind = "frame"
 shear_failure = { strength = 1 }
 column = { profile = { depth = 1 }, axis = "weak" }
-brace = [{ EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }, { profile = "HEB160", hinge = { rule = "buckling", curve = "c", yield_strength = 1 } }]
+brace = [{ EA = 1 }, { from = "0.1", to = "1.2", EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }, { profile = "HEB160", hinge = { rule = "buckling", curve = "c", yield_strength = 1 } }]
 infill = [{ modulus = 1, thickness = 1, width = "mainstone", opening = { length = 0.1 }, strength = { rule = "bertoldi" }, out_of_plane = { density = 1 }, backbone = { rule = "panagiotakos-fardis" } }, { force = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
-wall = [{ at = 1, length = 1, thickness = 1, hinge = { rule = "takeda", length = 1 } }, { line = 1, length = 1, EI = 1, shear_hinge = { rule = "bilinear", yield = 1, stiffness = 1 } }]
+wall = [{ at = 1, length = 1, thickness = 1, hinge = { rule = "takeda", length = 1 } }, { line = 1, length = 1, EI = 1, shear_hinge = { rule = "bilinear", yield = 1, stiffness = 1 } }, { line = 1, length = 1, thickness = 1, bars = { edges = "8 d20", edge_length = 1, web = "16 d10" }, hinge = { rule = "fibre" } }]
 coupling_beam = [{ between = [1, 2], width = 1, depth = 1, hinge = { rule = "pinched" } }, { bay = 1, EI = 1 }]
 [[building]]
 kind = "shear"

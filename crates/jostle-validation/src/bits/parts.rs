@@ -158,6 +158,8 @@ storeys = 3
 storey_height = "3 m"
 spans = ["5 m", "4 m"]
 concrete = "C30"
+column = { width = "400 mm", depth = "400 mm" }
+beam = { width = "300 mm", depth = "500 mm" }
 floor_mass = "60 t"
 gravity = true
 wall = [{ line = 2, length = "2 m", thickness = "200 mm", steel = "HRB400", bars = { edges = "6 d16", edge_length = "400 mm", web = "8 d10" }, ties = "d8 @ 100 mm", hinge = { rule = "fibre", length = "0.8 m", fibres = 12 } }]

@@ -332,9 +332,9 @@ pub const CHECKS: &[Check] = &[
     Check {
         id: "B3",
         name: "struck-unrated",
-        quantity: "force on a column hit between floors that is not compared with its capacity",
-        unit: "kN",
-        limits: &[above(0.0, Note)],
+        quantity: "column hit between floors that is not compared with its capacity: 1 if member forces are not requested, 2 if its capacity is not known",
+        unit: "–",
+        limits: &[above(0.0, Remark), above(1.0, Note)],
         sources: &[JUDGEMENT],
         remedy: "give the column its bars and ties (section) and use --members, which compares its shear and moment with its capacity; or compare them by hand",
         measure: yielding::struck_unrated,

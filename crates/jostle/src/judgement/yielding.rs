@@ -7,7 +7,7 @@ use crate::model::{
     Structure, capacity_rule_title,
 };
 use crate::results::summary::{MemberSummary, RatioSummary};
-use crate::structure::{MemberPlace, SpringPlace};
+use crate::structure::SpringPlace;
 
 /// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
 const YIELD_DRIFT: f64 = 0.01;
@@ -158,9 +158,7 @@ pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
         .flat_map(|building| {
             let hinges = building.hinges.list.iter();
             let columns = hinges.filter_map(|hinge| match hinge.at? {
-                SpringPlace::Struck { storey, line, .. } => {
-                    Some(MemberPlace::Column { line, storey })
-                }
+                SpringPlace::Struck { member, .. } => Some(member),
                 _ => None,
             });
             columns.map(|column| format!("{}.{column}", building.name))
@@ -181,7 +179,7 @@ pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Greatest force on columns that are struck between floors without their capacity being known.
+/// Columns that are struck between floors and not compared with their capacity: 1 where nobody asked, 2 where it is not known.
 pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
@@ -207,7 +205,8 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
             if rated || building.shear_failures.is_some() {
                 continue;
             }
-            tally.add(1e-3 * contact.peak_force_n, || {
+            let asked = f64::from(u8::from(!building.members.is_empty()));
+            tally.add(1.0 + asked, || {
                 let name = members.next().map_or_else(
                     || format!("a column of {}", quoted(&building.name)),
                     |member| member.name.clone(),

@@ -32,6 +32,8 @@ pub(super) struct ColumnPoint {
     pub(super) above: f64,
     /// Mass of the halves of both segments that meet there \[kg\].
     pub(super) mass: f64,
+    /// Whether a neighbour can strike it, rather than a strut meet it alone.
+    pub(super) is_struck: bool,
 }
 
 /// All such points of a space frame.
@@ -85,6 +87,9 @@ impl ColumnPoints {
                     column,
                     above: *above,
                     mass: half * (after - before),
+                    is_struck: struck.get(&column).is_some_and(|heights| {
+                        heights.iter().any(|height| (height - above).abs() <= SAME)
+                    }),
                 });
             }
         }

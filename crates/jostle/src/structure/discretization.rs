@@ -598,9 +598,10 @@ pub(super) fn discretize_frame(
                 let Some(hysteresis) = hinge else { break };
                 let above = stick_model.yielding(interior[at], *hysteresis, MemberEnd::First);
                 stick_model.members[first + at + 1].ends[0] = above;
+                let (line, storey) = (line + 1, storey + 1);
                 discretization.spring_places.push(SpringPlace::Struck {
-                    storey: storey + 1,
-                    line: line + 1,
+                    member: MemberPlace::Column { line, storey },
+                    axis: None,
                     point: point + 1,
                 });
             }

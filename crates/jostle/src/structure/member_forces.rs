@@ -617,9 +617,9 @@ impl<'a> Cuts<'a> {
             (MemberPlace::Column { line, storey }, Some(end)) => {
                 Some(SpringPlace::Column { storey, line, end })
             }
-            (MemberPlace::Column { line, storey }, None) => Some(SpringPlace::Struck {
-                storey,
-                line,
+            (column @ MemberPlace::Column { .. }, None) => Some(SpringPlace::Struck {
+                member: column,
+                axis: None,
                 point: self.hinges_up_to(member, element + side),
             }),
             (MemberPlace::Beam { floor, span: bay }, Some(end)) => {

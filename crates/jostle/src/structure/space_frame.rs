@@ -398,12 +398,14 @@ impl<'a> Assembly<'a> {
         stiffness.iter().sum()
     }
 
-    /// A member as springs. `unknowns`: what its first and last end have beyond hinges or fibres.
+    /// A member as springs. `unknowns`: what its first and last end have beyond hinges or fibres; `at_points`: what the parts above its
+    /// points have at their feet beyond hinges, from the lowest up.
     pub(super) fn springs(
         &self,
         place: SpacePlace,
         section: &SpaceSection,
         unknowns: [EndUnknowns; 2],
+        at_points: &[EndUnknowns],
     ) -> SpringMember {
         let storey = place.storey();
         let [first, last] = place.crossings();
@@ -441,8 +443,10 @@ impl<'a> Assembly<'a> {
             points.map(|(number, at)| (at.above - rigid[0], Self::point(number, rise.as_ref()))),
         );
         cuts.push((length, b));
-        let parts = cuts.windows(2).map(|ends| {
+        let parts = cuts.windows(2).enumerate().map(|(part, ends)| {
             let ((from, a), (to, b)) = (&ends[0], &ends[1]);
+            let beyond = part.checked_sub(1).and_then(|point| at_points.get(point));
+            let a = &a.clone().beyond(beyond.copied().unwrap_or_default());
             let length = to - from;
             let bend = |plane: usize| {
                 let (towards, about, slope) = planes[plane];
@@ -596,7 +600,7 @@ pub(super) fn condense(
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
-        .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2]))
+        .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2], &[]))
         .collect();
     let diagonals = frame.diagonals.iter();
     let diagonals = diagonals.map(|diagonal| {

@@ -387,7 +387,10 @@ impl Builder<'_> {
                 self.sticks.double_curvature.extend(nodes);
             }
         }
-        let springs = self.assembly.springs(member.place, &member.section, ends);
+        let at_points = self.add_struck_hinges(member);
+        let springs = self
+            .assembly
+            .springs(member.place, &member.section, ends, &at_points);
         let SpringMember { torsion, parts } = springs;
         let row = |deformation: &Deformation| self.over_nodes(deformation, direction);
         let single = |(stiffness, deformation): &(f64, Deformation)| Element::Spring {
@@ -477,6 +480,44 @@ impl Builder<'_> {
                 },
             });
         }
+    }
+
+    /// Adds hinges where a column is struck, in the planes in which its ends have some, and returns what the parts above have beyond them.
+    fn add_struck_hinges(&mut self, member: &SpaceMember) -> Vec<EndUnknowns> {
+        let points = self.assembly.points.of(member.place);
+        let points: Vec<(usize, bool)> = points
+            .map(|(number, point)| (number, point.is_struck))
+            .collect();
+        let mut all = Vec::with_capacity(points.len());
+        for (index, (number, is_struck)) in points.into_iter().enumerate() {
+            let mut beyond = EndUnknowns::default();
+            let planes = planes(member.place).iter().enumerate();
+            for (plane, &(_, axis, slope)) in planes.filter(|_| is_struck) {
+                let Some(hysteresis) = member.hinges[plane] else {
+                    continue;
+                };
+                let below = self.points[number].turning[axis];
+                let height = self.sticks.nodes[below].y;
+                let above = self
+                    .sticks
+                    .add_turning(Stage::Beams, self.ends.len(), height);
+                beyond[1 + axis] = Some(self.ends.len());
+                self.ends.push(above);
+                // As at the foot of a column.
+                let both = match slope > 0.0 {
+                    true => [below, above],
+                    false => [above, below],
+                };
+                self.sticks.hinges.push(Hinge::yielding(both, hysteresis));
+                self.places.push(SpringPlace::Struck {
+                    member: MemberPlace::InSpace(member.place),
+                    axis: Some(PlanAxis::BOTH[plane]),
+                    point: index + 1,
+                });
+            }
+            all.push(beyond);
+        }
+        all
     }
 
     /// Adds the ends of a column beyond its fibres, and these.

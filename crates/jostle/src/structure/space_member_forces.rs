@@ -321,19 +321,28 @@ impl JointedCuts<'_> {
         let is_column = matches!(member.place, SpacePlace::Column { .. });
         let sign = if is_column { 1.0 } else { -1.0 };
         let places = &self.building.discretization.spring_places;
-        let hinge = |end: MemberEnd, plane: usize| {
+        let last_part = member.parts.len() - 1;
+        let hinge = |part: usize, end: MemberEnd, plane: usize| {
             let axis = match (member.place, plane) {
                 (SpacePlace::Column { .. }, 1) | (SpacePlace::BeamY { .. }, _) => PlanAxis::Y,
                 _ => PlanAxis::X,
             };
-            let space = SpringPlace::InSpace {
-                place: member.place,
-                end,
-                axis,
+            let struck = |point: usize| SpringPlace::Struck {
+                member: MemberPlace::InSpace(member.place),
+                axis: Some(axis),
+                point,
+            };
+            let space = match end {
+                MemberEnd::First if part > 0 => struck(part),
+                MemberEnd::Last if part < last_part => struck(part + 1),
+                _ => SpringPlace::InSpace {
+                    place: member.place,
+                    end,
+                    axis,
+                },
             };
             places.iter().position(|place| *place == space)
         };
-        let last_part = member.parts.len() - 1;
         let of_part = |(index, part): (usize, &JointedPart)| {
             [0, 1].map(|plane| {
                 let forces = self.forces(part.bending[plane]?);
@@ -346,11 +355,7 @@ impl JointedCuts<'_> {
                 }
                 let moment = |end: MemberEnd, end_moment: &LinearForm, sign: f64| {
                     let mut form = LinearForm::default();
-                    let is_end = match end {
-                        MemberEnd::First => index == 0,
-                        MemberEnd::Last => index == last_part,
-                    };
-                    match hinge(end, plane).filter(|_| is_end) {
+                    match hinge(index, end, plane) {
                         Some(spring) => form.springs.add(spring, 1.0),
                         None => form.add(sign, end_moment),
                     }

@@ -63,11 +63,11 @@ pub enum SpringPlace {
     },
     /// Between the floors of a column, where a neighbour or a link pushes it.
     Struck {
-        /// Storey.
-        storey: usize,
-        /// Column line.
-        line: usize,
-        /// Its number among such points of the column, from 1, from below.
+        /// Its column.
+        member: MemberPlace,
+        /// Along which lines it bends, in a space frame.
+        axis: Option<PlanAxis>,
+        /// Its number among the points of the column that move by themselves, from 1, from below.
         point: usize,
     },
     /// At an end of a beam.
@@ -421,13 +421,21 @@ impl std::fmt::Display for SpringPlace {
                 write!(formatter, "column {line}, storey {storey}, {end}")
             }
             Self::Struck {
-                storey,
-                line,
+                member,
+                axis,
                 point,
-            } => write!(
-                formatter,
-                "column {line}, storey {storey}, struck point {point}"
-            ),
+            } => {
+                match member {
+                    MemberPlace::Column { line, storey } => {
+                        write!(formatter, "column {line}, storey {storey}")?;
+                    }
+                    MemberPlace::Beam { .. } | MemberPlace::InSpace(_) => {
+                        write!(formatter, "{member}")?;
+                    }
+                }
+                write!(formatter, ", struck point {point}")?;
+                axis.map_or(Ok(()), |axis| write!(formatter, ", {}", axis.name()))
+            }
             Self::Beam { floor, bay, end } => {
                 let end = end.of_beam();
                 write!(formatter, "beam {bay}, floor {floor}, {end}")

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory, Side};
 use crate::model::{Building, LimitedMembers, RotationLevel, RotationMeasure, SpacePlace};
-use crate::structure::{AssembledBuilding, SpringPlace, end_stiffnesses};
+use crate::structure::{AssembledBuilding, MemberPlace, SpringPlace, end_stiffnesses};
 
 /// A hinge of a member with limits of its rotation.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,9 +34,13 @@ fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
             let name = format!("column.{line}.{storey}");
             (columns, [line, storey], name, end.of_column())
         }
-        SpringPlace::Struck { storey, line, .. } => {
-            let name = format!("column.{line}.{storey}");
-            (columns, [line, storey], name, "struck")
+        SpringPlace::Struck { member, .. } => {
+            let at = match member {
+                MemberPlace::Column { line, storey } => [line, storey],
+                MemberPlace::Beam { floor, span } => [span, floor],
+                MemberPlace::InSpace(place) => [0, place.storey() + 1],
+            };
+            (columns, at, member.to_string(), "struck")
         }
         SpringPlace::Beam { floor, bay, end } => {
             let name = format!("beam.{floor}.{bay}");

@@ -67,9 +67,7 @@ impl MemberHinge {
         });
         let hinge_places: Vec<(SpringPlace, SectionAt)> = hinge_places.collect();
         let at = |spring: &SpringPlace| match *spring {
-            SpringPlace::Struck { storey, line, .. } => {
-                (place == MemberPlace::Column { line, storey }).then_some(SectionAt::Below)
-            }
+            SpringPlace::Struck { member, .. } => (place == member).then_some(SectionAt::Below),
             _ => {
                 let mut known = hinge_places.iter();
                 known.find(|(end, _)| end == spring).map(|(_, at)| *at)

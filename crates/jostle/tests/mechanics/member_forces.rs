@@ -463,8 +463,8 @@ fn a_struck_column_bears_no_more_than_its_plastic_limit() {
     );
     let places = &system.buildings[1].discretization.spring_places;
     let point = SpringPlace::Struck {
-        storey: 1,
-        line: 1,
+        member: LEFT,
+        axis: None,
         point: 1,
     };
     let at = places

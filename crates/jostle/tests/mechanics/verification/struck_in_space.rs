@@ -306,7 +306,7 @@ fn a_pair_of_columns_is_its_plane_limit() {
     }
 }
 
-/// Hinges at the ends of struck columns yield as in one plane.
+/// Hinges at the ends of struck columns, and where they are struck, yield as in one plane.
 #[test]
 fn struck_columns_yield_as_in_one_plane() {
     let hinge = |factor: f64| {
