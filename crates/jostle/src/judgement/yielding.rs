@@ -2,6 +2,7 @@
 
 use super::{Known, Tally, quoted};
 use crate::hysteresis::{Hysteresis, Side};
+use crate::linear::sort_by;
 use crate::model::{
     Building, Diagonal, DiagonalKind, FramePlace, Hinges, LEVEL_TOLERANCE, STANDARD_GRAVITY,
     Structure, capacity_rule_title,
@@ -190,7 +191,15 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
             .contacts
             .iter()
             .filter(|contact| contact.impact_count > 0);
-        for (contact, side) in contacts.flat_map(|contact| [(contact, 0), (contact, 1)]) {
+        // Of columns alike the one that is hit hardest.
+        let mut contacts: Vec<_> = contacts.collect();
+        sort_by(&mut contacts, |a, b| {
+            b.peak_force_n.total_cmp(&a.peak_force_n)
+        });
+        for (contact, side) in contacts
+            .into_iter()
+            .flat_map(|contact| [(contact, 0), (contact, 1)])
+        {
             let Some(index) = sides[side].filter(|_| contact.floors[side].is_none()) else {
                 continue;
             };
