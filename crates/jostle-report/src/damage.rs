@@ -104,17 +104,9 @@ fn yielded_word(places: &[SpringPlace]) -> &'static str {
         use SpringPlace::{PlanStorey, Storey};
         matches!(at, Storey { .. } | PlanStorey { .. })
     };
-    let is_bearing = |at: &SpringPlace| {
-        use SpringPlace::{BearingInPlan, Bearings, Ring, Stop};
-        matches!(
-            at,
-            Bearings | BearingInPlan { .. } | Ring { .. } | Stop { .. }
-        )
-    };
     match places {
         [] => message::hinges_yielded_word(),
         all if all.iter().all(is_storey) => message::storeys_yielded_word(),
-        all if all.iter().all(is_bearing) => message::bearings_yielded_word(),
         _ => message::hinges_yielded_word(),
     }
 }

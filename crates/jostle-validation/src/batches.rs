@@ -271,8 +271,8 @@ pub fn speed() -> Result<Vec<(&'static str, f64, f64)>, String> {
     Ok(all)
 }
 
-/// Pairs times draws of a synthetic city, free and with contact, sample and tables included, in a second of one thread \[1/s\], and
-/// bytes of the tables for each.
+/// Draws of pairs of a synthetic city that one thread computes in a second \[1/s\], and the bytes of the tables for each. The time includes
+/// runs without and with contact, the sample, and the tables.
 ///
 /// # Errors
 /// When the city cannot run.

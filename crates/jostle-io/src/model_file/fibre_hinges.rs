@@ -154,7 +154,7 @@ impl FibreLaws {
         })
     }
 
-    /// In one plane, with a length \[m\] where none is stated, and so many layers.
+    /// In one plane, with this length \[m\] where none is stated, and this number of layers.
     pub(super) fn options(&self, usual_length: f64, usual_layers: usize) -> FibreOptions {
         let options = FibreOptions::over(self.length.unwrap_or(usual_length));
         FibreOptions {

@@ -61,7 +61,6 @@ messages! {
     // damage
     hinges_yielded_word = "hinges yielded";
     storeys_yielded_word = "storeys yielded";
-    bearings_yielded_word = "springs of bearings yielded";
     braces_buckled = "braces buckled";
     braces_yielded = "braces yielded";
     struts_cracked = "infill struts cracked";

@@ -355,7 +355,7 @@ fn struck_columns_on_a_mat_move_as_in_one_plane() {
     compare_with_plane(space, isolated(plane, 50e3 - halves), Solver::Riccati, 1e-5);
 }
 
-/// Total mass is that of the floors, but for the lower half of what the ground carries of a struck column.
+/// Total mass is that of the floors, plus the lower half of what the ground carries of a struck column.
 #[test]
 fn points_take_their_mass_from_the_floors() {
     let plan = rectangle(BAY[0] + GAP, 0.0, 8.0, BAY[1]);
