@@ -1,12 +1,13 @@
 # %% [markdown]
 # # From Python
 #
-# This page is a script whose cells were executed when the site was built. Install the package first:
-# [Install and first run](install.html).
+# This page is a Python script; the site shows it with its results. To run it yourself, install the package first
+# ([Install and first run](install.html)).
 #
 # ## A first run
 #
-# The built-in example: frames of five and ten storeys. A result shows its summary.
+# `jostle.run` runs a model file or a built-in example and returns a result. The built-in example `paper` consists of two frames with five
+# and ten storeys. Printing the result shows its summary.
 
 # %%
 import jostle
@@ -15,7 +16,7 @@ result = jostle.run("paper", pga="70 cm/s2", gap="10 mm")
 print(result)
 
 # %% [markdown]
-# Every number of the summary is in `result.summary`, in SI units. Impacts are a table.
+# `result.summary` contains all numbers of the summary in SI units, and `result.impacts` one entry per impact.
 
 # %%
 gap = result.summary["gaps"][0]
@@ -25,7 +26,7 @@ result.impacts[0]
 # %% [markdown]
 # ## Histories
 #
-# Histories are NumPy arrays. Displacements are relative to the ground and positive to the right.
+# Histories of displacements and forces are NumPy arrays. Displacements are relative to the ground and positive to the right.
 
 # %%
 import matplotlib.pyplot as plt
@@ -44,7 +45,8 @@ plt.show()
 # %% [markdown]
 # ## Your own buildings
 #
-# Keywords that end in a unit take numbers; all others take texts with units.
+# A model can be built from Python objects instead of a model file. A keyword whose name ends in a unit, such as `width_mm`, takes a number
+# in this unit. All other keywords take a string with a unit, or a number in SI units.
 
 # %%
 soft = jostle.Shear("soft", mass=["40 t", "40 t", "30 t"], stiffness_mn_m=[30, 30, 20], storey_height="3.2 m")
@@ -61,7 +63,8 @@ print(jostle.run(pair))
 # %% [markdown]
 # ## Peak force against gap
 #
-# `record_interval=None` records no histories: less memory and time, the same peaks.
+# Many runs of one model give the peak force as a function of the gap. With `record_interval=None` a run stores no histories, which saves
+# memory and time; peaks are the same.
 
 # %%
 import numpy as np
@@ -78,6 +81,8 @@ plt.show()
 
 # %% [markdown]
 # ## The required gap
+#
+# `jostle.critical_gap` returns the gap needed under the motion of the model, and the gaps required by rules and codes.
 
 # %%
 (critical,) = jostle.critical_gap(pair)
@@ -88,7 +93,7 @@ for rule in critical.rules:
 # %% [markdown]
 # ## Errors
 #
-# A wrong unit is an error with the place and a remedy.
+# A wrong unit raises `jostle.ModelError`, whose message names the place of the error and suggests a correction.
 
 # %%
 try:
@@ -98,4 +103,4 @@ except jostle.ModelError as error:
     print(error)
 
 # %% [markdown]
-# Next: [Python package](../python.html) with studies, motions, contact laws of your own, and every class and function.
+# Next: the [Python package](../python.html) describes studies, motions, user-defined contact laws, and all classes and functions.

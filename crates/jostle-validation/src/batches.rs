@@ -313,15 +313,16 @@ pub fn page(
 ) -> String {
     let mut text = format!(
         "# Accuracy and speed of batches\n\n\
-         `jostle city` and `jostle classes` compute many rows of yielding shear buildings at once, in single precision.\n\
-         This page compares them with the standard solvers at a tolerance of 1e-4, and reports their speed. It is written by\n\
-         `cargo run --release -p jostle-validation -- --batches {pairs} {rows} --seed {seed} --page`. Every run of a city or of classes repeats a\n\
-         sample of its rows with the standard solvers and reports the differences.\n\n\
+         `jostle city` and `jostle classes` compute many rows of yielding shear buildings at once, in single precision. This page shows\n\
+         how much their peaks differ from those of the standard solvers at a tolerance of 1e-4, and how fast they are. It is written by\n\
+         `cargo run --release -p jostle-validation -- --batches {pairs} {rows} --seed {seed} --page`. Every run of a city or of classes\n\
+         also repeats a sample of its rows with the standard solvers and reports the differences.\n\n\
          ## Accuracy\n\n\
-         Random buildings of 1 to {MOST_STOREYS} storeys of all HAZUS types and design levels, scattered in stiffness and strength; gaps with a median of \
-         {:.0} mm;\nEl Centro with a median peak of {:.2} g. An error is the difference of a peak, divided by the greatest peak of its kind \
-         in the building or gap.\n\n\
-         | rows | with contact | tolerance | precision | peaks | drifts within | accelerations | forces | all within | worst |\n\
+         The compared buildings are random: 1 to {MOST_STOREYS} storeys, all HAZUS types and design levels, random stiffness and strength. The gaps \
+         have a\nmedian of {:.0} mm, and the El Centro record is scaled to a median peak of {:.2} g. An error is the difference of a peak, \
+         divided by the\ngreatest peak of its kind in the building or gap. The columns *drifts* to *all* give the share of peaks whose \
+         error is within the\ntolerance.\n\n\
+         | rows | rows with contact | tolerance | precision | peaks | drifts | accelerations | forces | all | largest error |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",
         1e3 * GAP.0,
         PGA.0 / jostle::statics::STANDARD_GRAVITY
@@ -349,20 +350,21 @@ pub fn page(
         );
     }
     text += "\n## Speed\n\n\
-             Four beside six storeys (C1M, moderate code), El Centro whole (31 s), in a second of one thread. Other programs may have run on \
-             the\nsame machine.\n\n\
-             | rule | tolerance | pairs a second |\n|---|---|---|\n";
+             Number of pairs that one thread computes per second: a four-storey beside a six-storey building (C1M, moderate code) under the whole\n\
+             El Centro record (31 s). Other programs may have been running on the same machine.\n\n\
+             | rule | tolerance | pairs per second |\n|---|---|---|\n";
     for (name, tolerance, rate) in speed {
         let _ = writeln!(text, "| {name} | {tolerance:e} | {rate:.0} |");
     }
     let _ = write!(
         text,
         "\n## What a city costs\n\n\
-         One thread computes {rate:.0} draws of a pair in a second, in a synthetic city of {} buildings with {} draws. This includes all work of `jostle city run`:\n\
-         runs without contact, runs with contact where the gap closes, the sample with the standard solvers, and the tables ({bytes:.0} bytes each). What follows is \
-         computed from these\ntwo numbers, for {PAIRS_A_BUILDING} pairs a building (outlines of San Francisco within 0.5 m), {MOTIONS:.0} motions \
-         and one draw for each; no run of that size\nwas made. `--shard` or Dask workers compute the parts, which are independent of each other.\n\n\
-         | buildings | draws of a pair | hours of a core | tables |\n|---|---|---|---|\n",
+         In a synthetic city of {} buildings with {} draws, one thread computes {rate:.0} draws of a pair per second. This includes all work of\n\
+         `jostle city run`: runs without contact, runs with contact where the gap closes, the sample with the standard solvers, and the tables\n\
+         ({bytes:.0} bytes per draw). The following table is extrapolated from these two numbers, for {PAIRS_A_BUILDING} pairs per building (outlines of San\n\
+         Francisco within 0.5 m) and {MOTIONS:.0} motions with one draw each. No run of this size was made. `--shard` or Dask workers compute the\n\
+         parts, which are independent of each other.\n\n\
+         | buildings | draws of a pair | core hours | tables |\n|---|---|---|---|\n",
         CITY.0, CITY.1
     );
     for (name, buildings) in [
