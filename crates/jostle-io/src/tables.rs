@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use jostle::history::{MemberHistory, Owner};
 use jostle::hysteresis::{ForceRow, Side};
-use jostle::interface::PlanPart;
 use jostle::linear::sort_by;
 use jostle::quantity::Read;
 use jostle::results::in_plan::ImpactSliding;
@@ -688,12 +687,9 @@ pub fn contact_names(summary: &Summary) -> Vec<String> {
         for contact in &gap.contacts {
             let place = joint_place("floor", contact.floors, contact.height_m);
             // A slab may strike several columns at one height.
-            let parts = contact.in_plan.iter().flat_map(|plan| plan.parts);
-            let columns = parts.filter_map(|part| match part {
-                PlanPart::Column([x, y]) => Some(format!("_column{}-{}", x + 1, y + 1)),
-                PlanPart::Edge(_) | PlanPart::Corner(_) => None,
-            });
-            names.push(format!("{pair}.{place}{}", columns.collect::<String>()));
+            let column = contact.struck_column();
+            let column = column.map(|[x, y]| format!("_column{x}-{y}"));
+            names.push(format!("{pair}.{place}{}", column.unwrap_or_default()));
         }
     }
     names

@@ -766,6 +766,7 @@ fn table(
         contacts.map(move |contact| Shown::Face(gap, contact))
     });
     let faces = faces.enumerate();
+    let faces = faces.filter(|(index, _)| !history.columns().contains(&Column::closing(*index)));
     let faces = faces.map(|(index, face)| (format!("c:{index}"), face));
     let mut columns: Vec<(String, Shown)> = recorded.chain(faces).collect();
     let mut always: Vec<usize> = Vec::new();

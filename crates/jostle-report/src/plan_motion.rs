@@ -35,7 +35,8 @@ pub(crate) fn point_motion(
     Some([x, y])
 }
 
-/// Indentation of the most indented point of a face in every row, negative while it is open; `None` in one plane \[m\].
+/// Indentation of the most indented point of a face in every row, negative while it is open; `None` in one plane, and where a column
+/// is struck between floors, whose motion no floor has \[m\].
 pub(crate) fn face_indentation(
     model: &Model,
     history: &History,
@@ -50,8 +51,9 @@ pub(crate) fn face_indentation(
             (Some(building), Some(floor)) => {
                 point_motion(model, history, (building, floor), point.place)
             }
+            (Some(_), None) => None,
             // Walls on the site move with the ground.
-            _ => Some([(); 2].map(|()| vec![0.0; history.len()])),
+            (None, _) => Some([(); 2].map(|()| vec![0.0; history.len()])),
         };
         let ([ax, ay], [bx, by]) = (side(0)?, side(1)?);
         for (row, depth) in depths.iter_mut().enumerate() {

@@ -2,6 +2,7 @@
 //! rotation.
 
 use jostle::interface::PlanContactKind;
+use jostle::results::summary::ContactSummary;
 use jostle::{Column, PlanPoint, Tiers};
 use maud::{Markup, html};
 
@@ -177,7 +178,7 @@ fn faces(page: &Page) -> Markup {
                             @let centre = hardest.and_then(|impact| impact.centre_m);
                             tr {
                                 th scope="row" { (gap.between[0]) " ↔ " (gap.between[1]) }
-                                td { (pair(contact.floors)) } td { (kind_in_words(plan.kind)) }
+                                td { (pair(contact.floors)) } td { (kind_in_words(contact, plan.kind)) }
                                 td.number { (format::in_unit(format::HEIGHT, plan.overlap_m, 2)) } td.number { (format::in_unit(format::LENGTH, contact.width_m, 1)) }
                                 td.number { (format::fixed(plan.normal[0], 3)) ", " (format::fixed(plan.normal[1], 3)) }
                                 td.number { (contact.impact_count) } td.number { (format::significant(format::FORCE.of(contact.peak_force_n), 4)) }
@@ -288,10 +289,10 @@ fn histories(page: &Page) -> Markup {
     }
 }
 
-fn kind_in_words(kind: PlanContactKind) -> &'static str {
-    match kind {
-        PlanContactKind::Face => message::face(),
-        PlanContactKind::Corner => message::corner(),
-        PlanContactKind::Column => message::column(),
+fn kind_in_words(contact: &ContactSummary, kind: PlanContactKind) -> String {
+    match (kind, contact.struck_column()) {
+        (_, Some([x, y])) => message::column_at_x_y(x, y),
+        (PlanContactKind::Corner, None) => message::corner().to_owned(),
+        (PlanContactKind::Face | PlanContactKind::Column, None) => message::face().to_owned(),
     }
 }

@@ -177,7 +177,7 @@ pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
     nearest(gap).map(|contact| contact.closing_peak_m)
 }
 
-/// Where a contact is: "floor 5", "floors 5 and 4", "floor 5 of Old against a column of New, height 4.80 m".
+/// Where a contact is: "floor 5", "floors 5 and 4", "floor 5 of Old against a column of New, height 4.80 m", in space "column 1.2".
 pub(crate) fn place(summary: &Summary, gap: &GapSummary, contact: &ContactSummary) -> String {
     let [left, right] = &gap.between;
     // Sides that are no buildings are walls; the rigid one at an end of the row has no name of its own.
@@ -202,13 +202,17 @@ pub(crate) fn place(summary: &Summary, gap: &GapSummary, contact: &ContactSummar
         _ => {}
     }
     let height = message::height_m(format::in_unit(format::HEIGHT, contact.height_m, 2));
+    let column = contact.struck_column().map_or_else(
+        || message::a_column().to_owned(),
+        |[x, y]| message::column_at_x_y(x, y),
+    );
     match contact.floors {
         [Some(0), Some(0)] => message::mats().to_owned(),
         [Some(0), None] | [None, Some(0)] => message::mat().to_owned(),
         [Some(left), Some(right)] if left == right => message::floor_one(left),
         [Some(left), Some(right)] => message::floors_and(left, right),
-        [Some(floor), None] => message::floor_against_column(floor, left, right, height),
-        [None, Some(floor)] => message::floor_against_column(floor, right, left, height),
+        [Some(floor), None] => message::floor_against_column(floor, left, column, right, height),
+        [None, Some(floor)] => message::floor_against_column(floor, right, column, left, height),
         [None, None] => height,
     }
 }

@@ -668,25 +668,32 @@ fn write_gap(
         .filter(|contact| contact.impact_count > 0)
         .collect();
     sort_by(&mut hit, |a, b| b.height_m.total_cmp(&a.height_m));
+    let [force, impulse, length] = [FORCE, IMPULSE, LENGTH].map(Shown::name);
+    let is_wall = |name: &str| name == WALL || summary.walls.iter().any(|wall| wall.name == name);
+    // Neither a floor nor a wall: a column between its floors.
+    let point = |contact: &ContactSummary, side: usize| match contact.floors[side] {
+        Some(floor) => floor.to_string(),
+        None if is_wall(&gap.between[side]) => WALL.to_owned(),
+        None => contact
+            .struck_column()
+            .map_or_else(|| "–".to_owned(), |[x, y]| format!("column {x}.{y}")),
+    };
+    let listed = hit.iter().take(LISTED);
+    let places = listed.map(|contact| format!("{} | {}", point(contact, 0), point(contact, 1)));
+    let places: Vec<String> = places.collect();
+    let lengths = places.iter().map(|place| place.chars().count());
+    let wide = lengths.fold(9, usize::max);
     if !hit.is_empty() {
         writeln!(
             text,
-            "  floors   impacts   peak force    impulse   closing    first"
+            "{:>wide$}   impacts   peak force    impulse   closing    first",
+            "floors "
         )?;
     }
-    let [force, impulse, length] = [FORCE, IMPULSE, LENGTH].map(Shown::name);
-    let is_wall = |name: &str| name == WALL || summary.walls.iter().any(|wall| wall.name == name);
-    for contact in hit.iter().take(LISTED) {
-        // Neither a floor nor a wall: a column between its floors.
-        let point = |side: usize| match contact.floors[side] {
-            Some(floor) => floor.to_string(),
-            None if is_wall(&gap.between[side]) => WALL.to_owned(),
-            None => "–".to_owned(),
-        };
+    for (contact, place) in hit.iter().zip(&places) {
         writeln!(
             text,
-            "{:>9}  {:7}  {:>8} {force}  {:>5} {impulse}  {:>5} {length}  {:>7.3} s",
-            format!("{} | {}", point(0), point(1)),
+            "{place:>wide$}  {:7}  {:>8} {force}  {:>5} {impulse}  {:>5} {length}  {:>7.3} s",
             contact.impact_count,
             kn(contact.peak_force_n),
             IMPULSE.number(contact.impulse_n_s, 1),

@@ -967,7 +967,8 @@ messages! {
     no_contact = "No contact.";
     mats = "mats";
     wall_member(of, line, storey) = "{of}.wall, line {line}, storey {storey}";
-    floor_against_column(floor, of, other, height) = "floor {floor} of {of} against a column of {other}, {height}";
+    floor_against_column(floor, of, column, other, height) = "floor {floor} of {of} against {column} of {other}, {height}";
+    a_column = "a column";
     floor_against_wall(floor, of, wall) = "floor {floor} of {of} against {wall}";
     mat_against_wall(of, wall) = "mat of {of} against {wall}";
     the_wall = "the wall";

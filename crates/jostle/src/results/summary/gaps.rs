@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::interface::PlanPart;
 use crate::quantity::{Quantity, Unit};
 use crate::results::in_plan::{ImpactSliding, PlanContactSummary};
 
@@ -126,6 +127,18 @@ pub struct ContactSummary {
     pub impulse_n_s: f64,
     /// Impacts in order of time.
     pub impacts: Vec<ImpactSummary>,
+}
+
+impl ContactSummary {
+    /// Grid lines x and y, from 1, of the column of a space frame that is struck between its floors; `None` elsewhere.
+    #[must_use]
+    pub fn struck_column(&self) -> Option<[usize; 2]> {
+        let parts = self.in_plan?.parts;
+        parts.into_iter().find_map(|part| match part {
+            PlanPart::Column(lines) => Some(lines.map(|line| line + 1)),
+            PlanPart::Edge(_) | PlanPart::Corner(_) => None,
+        })
+    }
 }
 
 #[rustfmt::skip]
