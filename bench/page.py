@@ -75,7 +75,7 @@ def word(reached):
 
 def glance(results, study, whole):
     """The aims, and what was measured."""
-    lines = ["| work | jostle | OpenSees at its best | ratio | aim | |", "|---|---|---|---|---|---|"]
+    lines = ["| case, solver | jostle | OpenSees at its best | ratio | aim | result |", "|---|---|---|---|---|---|"]
     by_case = {result["case"]: result for result in results}
     for (case, way), target in TARGETS.items():
         result = by_case.get(case)
@@ -103,7 +103,7 @@ def glance(results, study, whole):
     curve = whole.get("curve")
     if curve:
         lines.append(
-            f"| force over gap of the built-in example, {curve['points']} gaps with {curve['impacts']:.0f} impacts on average, whole process, one core | "
+            f"| peak force against gap for the built-in example, {curve['points']} gaps with {curve['impacts']:.0f} impacts on average, whole process, one core | "
             f"{seconds(curve['cpu_s'])} | | | 250 ms | {word(curve['cpu_s'] <= 0.25)} |"
         )
     names = {"two-towers-in-space": ("two towers of ten storeys in space, 31 s", 0.01), "block-of-nine": ("block of nine buildings in space", 0.2)}
@@ -116,12 +116,12 @@ def glance(results, study, whole):
     promise = whole.get("promise")
     if promise:
         lines.append(
-            f"| keeping the tolerance on {promise['models']} random models | {promise['median_runs']:g} runs in the median, {promise['mean_runs']:.2f} on average | | | "
+            f"| runs needed to meet the tolerance, {promise['models']} random models | median {promise['median_runs']:g}, mean {promise['mean_runs']:.2f} | | | "
             f"1.3 | {word(promise['median_runs'] <= 1.3)} |"
         )
     start = whole.get("start")
     if start:
-        lines.append(f"| from start to the first step | {seconds(start['cpu_s'])} | | | 3 ms | {word(start['cpu_s'] <= 3e-3)} |")
+        lines.append(f"| time from the start of the program to the first step | {seconds(start['cpu_s'])} | | | 3 ms | {word(start['cpu_s'] <= 3e-3)} |")
     return "\n".join(lines)
 
 
@@ -137,58 +137,61 @@ def limits(results, study, whole):
     if free and closed:
         each = (closed["cpu_s"] - free["cpu_s"]) / max(1, closed["short_steps"] - free["short_steps"])
         lines.append(
-            f"- *Elastic buildings* take one step per point of the record, and short steps around contacts: {free['steps']} steps, {free['short_steps']} of them in contact, "
-            f"for one impact in {seconds(free['cpu_s'])}. A step in contact takes some {1e6 * each:.1f} µs: it solves for the forces of all closed contacts and checks peaks and energy."
+            f"- *Elastic buildings* need one step per point of the record, and short steps around contacts. A run with one impact has {free['steps']} steps, {free['short_steps']} of them in contact, "
+            f"and takes {seconds(free['cpu_s'])}. A contact step takes about {1e6 * each:.1f} µs: it solves for the forces of all closed contacts, and updates peaks and the energy balance."
         )
     one = study.get("study")
     if one and free:
         aim = one["opensees_mean_cpu_s"] / 20000
         lines.append(
-            f"- *A study* at 20 000 times the speed of OpenSees would leave {seconds(aim)} per case, less than the {seconds(free['cpu_s'])} of a single run with one impact. It takes "
-            f"{seconds(one['cpu_s'] / one['cases'])} per case, because narrow gaps have hundreds of impacts, and runs with more than twelve are made twice to see whether they are "
-            "sensitive. To come nearer, a case would have to skip the time before its first and after its last impact."
+            f"- *Studies.* The aim of 20 000 times the speed of OpenSees corresponds to {seconds(aim)} per case, less than the {seconds(free['cpu_s'])} of a single run with one impact. A case takes "
+            f"{seconds(one['cpu_s'] / one['cases'])}, because narrow gaps have hundreds of impacts, and runs with more than twelve impacts are made twice to check whether they are "
+            "sensitive. To reach the aim, the time before the first and after the last impact of a case would have to be skipped."
         )
     yielding = row("inelastic", "riccati")
     if yielding:
         lines.append(
-            f"- *Yielding frames* solve for 260 and 770 displacements in each of {yielding['steps']} steps, and change the factors {yielding['factorisations']} times where hinges change. "
-            "A thousand times OpenSees needs longer steps with hinge changes found inside them, or displacements of joints alone."
+            f"- *Yielding frames* solve for 260 and 770 displacements in each of {yielding['steps']} steps, and change the factors {yielding['factorisations']} times because hinges change their stiffness. "
+            "The aim of 1 000 times would require longer steps in which changes of hinges are located, or steps for the displacements of joints only."
         )
     pairs = whole.get("pairs")
     series = row("yielding-towers", "series")
     if pairs and series:
         lines.append(
-            f"- *Yielding shear buildings* take {series['solutions']} pieces of motion between changes of springs and rounds of contact forces, "
-            f"{1e6 / pairs['per_second'] / series['solutions']:.1f} µs each with everything around them. Expansion, search of changes, peaks and energy take similar shares."
+            f"- *Yielding shear buildings* need {series['solutions']} solutions, one for each segment between stiffness changes and each iteration of contact forces. A solution takes "
+            f"{1e6 / pairs['per_second'] / series['solutions']:.1f} µs, including all other work of a run. The series, the search for stiffness changes, and peaks and energy take similar shares."
         )
     slow = row("few", "riccati")
     if slow:
-        lines.append(f"- *Riccati* moves all 840 displacements of the built-in example in {slow['steps']} steps, {1e6 * slow['cpu_s'] / slow['steps']:.1f} µs each, the coarser run for its estimate included.")
+        lines.append(
+            f"- *The Riccati solver* advances all 840 displacements of the built-in example in {slow['steps']} steps of {1e6 * slow['cpu_s'] / slow['steps']:.1f} µs each, "
+            "including the coarser run for the error estimate."
+        )
     linked = row("linked-row", "modal")
     if linked:
         lines.append(
-            f"- *Rows* take {linked['steps']} steps with dampers, {linked['short_steps']} of them in contact, and {linked['solutions']} solutions for all modes of all buildings: "
-            f"{1e6 * linked['cpu_s'] / linked['solutions']:.1f} µs each, with motions of all floors, peaks and energy. An impact of two buildings shortens the steps of all."
+            f"- *Rows* with dampers need {linked['steps']} steps, {linked['short_steps']} of them in contact, and {linked['solutions']} solutions for all modes of all buildings. "
+            f"A solution takes {1e6 * linked['cpu_s'] / linked['solutions']:.1f} µs, including the motions of all floors, peaks and energy. An impact of two buildings shortens the steps of all buildings."
         )
     space = row("space", "modal")
     if space:
         lines.append(
-            f"- *Buildings in space* touch and part point by point, and each such event ends a step: two towers take {space['steps']} steps, {space['short_steps']} of them in contact, and "
-            f"{space['solutions']} solutions with those that find the events, {1e6 * space['cpu_s'] / space['solutions']:.1f} µs each. "
-            "A step in contact solves for the forces at the ends of up to ten faces; forces, motions of all floors and corners, peaks and energy take similar shares. A thousand times OpenSees needs "
+            f"- *Buildings in space* come into contact point by point, and each opening and closing of a point ends a step. Two towers need {space['steps']} steps, {space['short_steps']} of them in contact, and "
+            f"{space['solutions']} solutions of {1e6 * space['cpu_s'] / space['solutions']:.1f} µs each, including those that locate these events. "
+            "A contact step solves for the forces at the ends of up to ten faces. Forces, motions of all floors and corners, and peaks and energy take similar shares. The aim of 1 000 times would require "
             "several events in one step."
         )
     curve = whole.get("curve")
     if curve:
         lines.append(
-            f"- *Force over gap* makes {curve['points']} runs of {1e3 * curve['cpu_s'] / curve['points']:.1f} ms each; those of narrow gaps have hundreds of impacts. Runs could share the time before their "
-            "first impact, which is short for narrow gaps."
+            f"- *Peak force against gap* requires {curve['points']} runs of {1e3 * curve['cpu_s'] / curve['points']:.1f} ms each; those with narrow gaps have hundreds of impacts. The time before the first impact "
+            "could be shared by several runs, but it is short for narrow gaps."
         )
     promise = whole.get("promise")
     if promise:
         lines.append(
-            f"- *The tolerance* costs one further run where it is missed ({promise['repeated']} of {promise['models']} random models), and one that shows whether results are sensitive "
-            f"({promise['second_run_for_sensitivity']} of them, those with more than twelve impacts)."
+            f"- *The tolerance* requires a further run if it is not met ({promise['repeated']} of {promise['models']} random models), and another run to check whether results are sensitive "
+            f"({promise['second_run_for_sensitivity']} models, those with more than twelve impacts)."
         )
     return "\n".join(lines)
 
@@ -213,7 +216,7 @@ def rewrite(folder, order):
         "",
         table(results),
         "",
-        f"Both programs converge to forces that are at most {max(apart):.1e} apart." if apart else "",
+        f"The converged peak forces of both programs differ by at most {max(apart):.1e}." if apart else "",
         "",
         END,
     ])

@@ -122,19 +122,19 @@ def text(results):
     if study:
         apart = study["forces_apart"]
         lines.append(
-            f"**A study of {study['cases']} cases**, J1 and J2 elastic, 25 gaps × 40 peak accelerations (`benches/studies/gap_by_pga.toml`), modal stepping, "
-            f"one thread, the whole process with its report and tables, median of {len(study['rounds'])}: {page.seconds(study['cpu_s'])} of CPU, {1e3 * study['cpu_s'] / study['cases']:.2f} ms per case. "
-            f"OpenSees at its best takes {page.seconds(study['opensees_mean_cpu_s'])} per case, the mean of {len(study['sample'])} cases spread evenly over the study, "
-            f"run alternately with it (time steps alone): **{page.times(study['ratio'])}** per core (target 20 000 ×). Peak forces of these cases differ by "
-            f"{apart['median']:.0e} (median) and at most {apart['largest']:.0e}."
+            f"**A study of {study['cases']} cases.** The study varies 25 gaps and 40 peak accelerations of J1 and J2, both elastic (`benches/studies/gap_by_pga.toml`), with modal stepping on "
+            f"one thread. The whole process, including its report and tables, takes {page.seconds(study['cpu_s'])} of CPU time (median of {len(study['rounds'])} runs), or "
+            f"{1e3 * study['cpu_s'] / study['cases']:.2f} ms per case. OpenSees at its best takes {page.seconds(study['opensees_mean_cpu_s'])} per case for the time steps alone. This is the mean of "
+            f"{len(study['sample'])} cases that are evenly distributed over the study; both programs were run alternately. The ratio is **{page.times(study['ratio'])}** per core (aim: 20 000 ×). "
+            f"The peak forces of these cases differ by {apart['median']:.0e} (median) and by at most {apart['largest']:.0e}."
         )
     used = results.get("cores")
     if used:
         lines.append(
-            f"**Two cores.** {used['cases']} of the million pairs of towers (`benches/studies/million_towers.toml`), medians of {len(used['rates']['one'])} alternating rounds: one thread "
-            f"{used['one']:.0f} cases per second, two threads {used['threads']:.0f}, two independent processes {used['processes']:.0f}. The efficiency of two "
-            f"threads is {used['efficiency']:.2f}. The limit of this machine, from two processes, is {used['machine']:.2f}; threads are "
-            f"{max(0.0, 1.0 - used['threads'] / used['processes']):.1%} slower."
+            f"**Two cores.** {used['cases']} of the million pairs of towers of `benches/studies/million_towers.toml` were run in {len(used['rates']['one'])} alternating rounds. In the median, one thread "
+            f"computes {used['one']:.0f} cases per second, two threads {used['threads']:.0f}, and two independent processes {used['processes']:.0f}. The efficiency of two "
+            f"threads is {used['efficiency']:.2f}. That of two processes, the limit of this machine, is {used['machine']:.2f}; threads are "
+            f"{max(0.0, 1.0 - used['threads'] / used['processes']):.1%} slower than processes."
         )
     if results:
         about = next(iter(results.values()))["machine_description"]

@@ -8,23 +8,26 @@ use crate::{Extent, Family, misses};
 const ILL_CONDITIONED: &str = "\
 ## What to know before reading the tables
 
-- **Impact sequences are sensitive.** A small change in timing can alter all later impacts, and a grazing impact may or may not happen.
-  Early impacts, peaks, impulses and energies are compared; the number of impacts must be equal, and
-  may differ by one where grazing impacts occur.
-- **Many frequencies of a frame lie close together**. Frequencies are therefore compared, single mode shapes are not.
-- **Two closed forms are compared with time steps.** Their rows show the error of the step, not of the formula; each row
-  states the step.
-- **A row marked *known*** does not agree within its tolerance; the reason is given below its table. All of them are the
-  same grazing impact of 10 kN, beside impacts of 190 kN.
-- **Below some step size accuracy stops improving.** In double precision the step equations have a relative error of about
-  10⁻¹⁵/(ωh)². Below about 10 µs rounding therefore exceeds the error of the method for slow structures.
-- **Not compared**: contact laws that OpenSees lacks or defines differently; the tables of Zhang et al. (2019), whose
-  inputs are not available.
-- **None of these numbers is a measured impact.** Mathematics and other programs show that the equations are solved right, not that
-  they are the right equations. Public experiments that would serve: the moat-wall tests of report MCEER-13-0003 (DesignSafe,
-  project NEES-2008-0571), in the layout that `jostle compare` reads; the pounding tests of Khatami et al. (2019) and of Rashid and
-  Abbas (2025); the frame with bumper of Los Alamos National Laboratory. With such a table and a [map of its
-  columns](how-to/shake-table.md): `jostle compare model.toml test.asc --map map.toml --out compared`.
+- **Impact sequences are sensitive.** A small change in timing can alter all later impacts, and can add or remove a grazing impact. The tables
+  therefore compare early impacts, peaks, impulses and energies. The number of impacts must be equal, or differ by at most one where grazing
+  impacts occur.
+- **Many frequencies of a frame lie close together.** Frequencies are therefore compared, but single mode shapes are not.
+- **Some closed forms are compared with time-stepping results.** Two groups of rows show the error of the time step, not of a formula; each
+  row states the step.
+- **Rows marked *known* do not agree within their tolerance.** The reason is given below the table. All of them concern the same grazing impact
+  of 10 kN, in a run with impacts of 190 kN.
+- **Below some step size accuracy stops improving.** In double precision the step equations have a relative error of about 10⁻¹⁵/(ωh)². For
+  slow structures and steps below about 10 µs, rounding therefore exceeds the error of the method.
+- **Some results are not compared**: those of contact laws that OpenSees lacks or defines differently, and the tables of Zhang et al. (2019),
+  whose inputs are not available.
+- **None of the reference values is a measured impact.** Closed forms and other programs show that the equations are solved correctly, but not
+  that they describe a real impact. Measured data are available from the following experiments, which have not been compared yet:
+    - the moat-wall tests of report MCEER-13-0003 (DesignSafe, project NEES-2008-0571), in a layout that `jostle compare` reads;
+    - the pounding tests of Khatami et al. (2019) and of Rashid and Abbas (2025);
+    - the frame with bumper of Los Alamos National Laboratory.
+
+    To compare a model with such a table, describe its columns in a [map](how-to/shake-table.md) and run
+    `jostle compare model.toml test.asc --map map.toml --out compared`.
 ";
 
 /// The page that lists the families.
@@ -47,9 +50,10 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     };
     let mut page = format!(
         "# Validation\n\n\
-         jostle {version} compared with closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
-         within their tolerance, {missed} miss and {known} differ for a known reason.\n\n\
-         ## Families\n\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n",
+         Results of jostle {version} are compared with closed forms, independent programs and the literature. Of {rows} numbers, \
+         {} agree within their tolerance, {missed} do not, and {known} differ for a known reason. Each page below lists the numbers \
+         of one family with their sources, errors and tolerances.\n\n\
+         ## Families\n\n| family | numbers | outside the tolerance | known reason |\n|---|---:|---:|---:|\n",
         rows - missed - known,
         version = env!("CARGO_PKG_VERSION"),
     );
@@ -68,16 +72,16 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     }
     put(&mut page, format_args!("\n{ILL_CONDITIONED}"));
     page += "\n## Random models\n\n\
-        Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
-        independent reference. The figure shows \
-        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [Accuracy on random models](certify.md).\n\n\
+        The peaks of random models, run with every solver at several tolerances, are compared with an independent reference. The \
+        figure shows the share of peaks whose error exceeds a given multiple of the tolerance. The tables are in [Accuracy on random \
+        models](certify.md).\n\n\
         ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n";
     put(
         &mut page,
         format_args!(
-            "\n## How these pages are made\n\nThey are written by\n\n\
+            "\n## How these pages are made\n\nThe validation program writes them:\n\n\
              ```sh\ncargo run --release -p jostle-validation{option}\n```\n\n\
-             and checked by `cargo test -p jostle-validation`. The expected numbers, their sources and their tolerances are in \
+             `cargo test -p jostle-validation` checks every number. The expected numbers, their sources and their tolerances are in \
              `crates/jostle-validation/data`.\n"
         ),
     );

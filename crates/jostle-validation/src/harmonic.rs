@@ -247,23 +247,25 @@ pub fn page(study: &Study) -> String {
         "# Harmonic pounding, compared with a shake table\n\n\
          <!-- Written by `cargo run --release -p jostle-validation -- --harmonic`; do not edit. -->\n\n\
          K. T. Chau, X. X. Wei, X. Guo and C. Y. Shen (2003, *Experimental and theoretical simulations of seismic poundings between two \
-         adjacent structures*, Earthquake Engineering and Structural Dynamics 32) shook two steel towers on a table, with sines and with \
-         El Centro. This page compares their observations with computed towers, in kind but not in number: the masses, \
-         frequencies, damping and contact law here are not those of the towers on the table. To compare a model with the recorded data of \
-         a test, see [Compare with a shake-table test](how-to/shake-table.md).\n\n\
-         Two towers of one storey, {SOFT} Hz and {STIFF} Hz, both 100 t, {:.0} % damping, a gap of {:.0} mm, `hertz-damp` with a restitution of \
-         0.6. The ground moves by a sine of {AMPLITUDE} m/s². After {} cycles the motion has settled; the next {} cycles count. {} frequencies from \
+         adjacent structures*, Earthquake Engineering and Structural Dynamics 32) tested the pounding of two steel towers on a shake \
+         table, under sinusoidal motion and under El Centro. This page compares their observations with computed towers. The comparison is \
+         qualitative, because the masses, frequencies, damping and contact law are not those of the tested towers. To compare a model \
+         with the recorded data of a test, see [Compare with a shake-table test](how-to/shake-table.md).\n\n\
+         The model consists of two towers of one storey with natural frequencies of {SOFT} Hz (the soft tower) and {STIFF} Hz (the stiff tower). Both have a mass of \
+         100 t and {:.0} % damping, and the gap between them is {:.0} mm. The contact law is `hertz-damp` with a restitution of 0.6. The \
+         ground acceleration is a sine of {AMPLITUDE} m/s². The motion settles during the first {} cycles, and the next {} cycles are evaluated, at each of {} frequencies from \
          {} to {} Hz.\n\n\
          ## Impact speed over frequency\n\n\
          ![Greatest impact speed and greatest displacements over the frequency of the ground](figures/harmonic-speed.svg)\n\n\
-         Impacts occur from {:.2} to {:.2} Hz. The fastest ones, {:.2} m/s, occur at {:.2} Hz. Each dot shows how often the motion repeats: every \
-         cycle, every few cycles, or not within {LONGEST} cycles.\n\n\
+         Impacts occur at frequencies from {:.2} to {:.2} Hz. The greatest impact speed, {:.2} m/s, occurs at {:.2} Hz. The colour of each dot shows \
+         whether the motion repeats every cycle, every few cycles, or not within {LONGEST} cycles.\n\n\
          ## Poincaré sections\n\n\
          ![Displacement and velocity of the soft tower once a cycle](figures/harmonic-poincare.svg)\n\n\
-         Displacement and velocity of the soft tower at the start of every cycle. One point: the motion repeats every cycle. A few points: \
-         every few cycles. A cloud: it does not repeat. Three frequencies of the pair above, and one of a pair with a stiff tower of {} Hz.\n\n\
+         The figure shows the displacement and velocity of the soft tower at the start of every cycle, for three frequencies of the pair \
+         above and one frequency of a pair with a stiff tower of {} Hz. A single point means that the motion repeats every cycle, and a few \
+         points that it repeats after a few cycles. A cloud of points means that it does not repeat.\n\n\
          ## What agrees, and what does not\n\n\
-         | observed on the table | computed here | |\n|---|---|---|\n",
+         | observed on the shake table | computed | verdict |\n|---|---|---|\n",
         100.0 * DAMPING,
         1e3 * GAP,
         CYCLES[0],
@@ -294,7 +296,7 @@ pub fn page(study: &Study) -> String {
     );
     let _ = writeln!(
         text,
-        "| Impacts occur once in every cycle, or in every second cycle. | of the frequencies with impacts, {:.0} % have one in every cycle, {:.0} % one in every second cycle | {} |",
+        "| Impacts occur once in every cycle, or in every second cycle. | of the frequencies with impacts, {:.0} % have one impact in every cycle, and {:.0} % one in every second cycle | {} |",
         share(main, |s| once_in(s, 1)),
         share(main, |s| once_in(s, 2)),
         verdict(main.iter().any(|s| once_in(s, 1)) && main.iter().any(|s| once_in(s, 2)))
@@ -305,7 +307,7 @@ pub fn page(study: &Study) -> String {
     });
     let _ = writeln!(
         text,
-        "| Groups of impacts repeat themselves. | {groups:.0} % have a group of two or more impacts that repeats within {LONGEST} cycles | {} |",
+        "| Groups of impacts repeat themselves. | {groups:.0} % of the frequencies have a group of two or more impacts that repeats within {LONGEST} cycles | {} |",
         verdict(groups > 0.0)
     );
     let chaotic = |sweep: &[Steady]| share(sweep, |s| s.period.is_none());
@@ -317,7 +319,7 @@ pub fn page(study: &Study) -> String {
     let last = shares.last().copied().unwrap_or_default();
     let _ = writeln!(
         text,
-        "| Impacts can be chaotic. | {:.0} % do not repeat within {LONGEST} cycles; of a stiff tower of {} Hz, {:.0} % | {} |",
+        "| Impacts can be chaotic. | at {:.0} % of the frequencies the motion does not repeat within {LONGEST} cycles; with a stiff tower of {} Hz, at {:.0} % | {} |",
         chaotic(main),
         last.0,
         last.1,
@@ -330,12 +332,12 @@ pub fn page(study: &Study) -> String {
     let grows = shares.windows(2).all(|pair| pair[1].1 >= pair[0].1);
     let _ = writeln!(
         text,
-        "| Chaotic motion develops when the difference of the natural frequencies becomes larger. | share of frequencies that do not repeat, for a stiff tower of {} | {} |",
+        "| Chaotic motion develops when the difference of the natural frequencies becomes larger. | share of frequencies at which the motion does not repeat, for a stiff tower of {} | {} |",
         listed.join(", "),
         if grows {
             "agrees"
         } else if shares.last().map(|s| s.1) > shares.first().map(|s| s.1) {
-            "agrees in part: it does not grow with every step"
+            "agrees in part: the share does not increase with every difference"
         } else {
             "does not agree"
         }
@@ -343,7 +345,7 @@ pub fn page(study: &Study) -> String {
     let (soft, stiff) = (near(SOFT), near(STIFF));
     let _ = writeln!(
         text,
-        "| Pounding amplifies the stiffer tower and suppresses the more flexible one. | at {:.2} Hz: stiff × {:.2}, soft × {:.2}; at {:.2} Hz: stiff × {:.2}, soft × {:.2} | {} |",
+        "| Pounding amplifies the stiffer tower and suppresses the more flexible one. | peak displacement with ÷ without contact, at {:.2} Hz: stiff {:.2}, soft {:.2}; at {:.2} Hz: stiff {:.2}, soft {:.2} | {} |",
         soft.frequency,
         ratio(soft, 1),
         ratio(soft, 0),
@@ -356,16 +358,17 @@ pub fn page(study: &Study) -> String {
         ) {
             (true, true) => "agrees",
             (true, false) =>
-                "agrees around the natural frequency of the soft tower; around that of the stiff one the two exchange their parts",
+                "agrees near the natural frequency of the soft tower; near that of the stiff tower the effect is reversed",
             (false, _) => "does not agree",
         }
     );
     let _ = write!(
         text,
-        "\nA test (`crates/jostle/tests/mechanics/verification/harmonic_pounding.rs`) holds the first and the last line.\n\n\
-         A motion that does not repeat here may be chaotic, or may have two periods without a common multiple; the section tells which: a closed \
-         line is the latter. Two states are the same if they differ by less than 0.1 % of their range. Motions that do not repeat are followed for {} more cycles, and the last {} count. The towers on the table were of \
-         steel, with less damping; less damping makes resonances narrower and impacts faster.\n",
+        "\nA motion that does not repeat within {LONGEST} cycles may be chaotic, or it may be a combination of two periods without a common \
+         multiple. The Poincaré section distinguishes the two: the points of the latter form a closed line. Two states are taken as equal if \
+         they differ by less than 0.1 % of their range. Motions that do not repeat are computed for {} more cycles, of which the last {} are evaluated.\n\n\
+         The tested towers were of steel and had less damping, which makes resonances narrower and impacts faster. The first and last rows \
+         of the table are checked by the test `crates/jostle/tests/mechanics/verification/harmonic_pounding.rs`.\n",
         LONG[0] - CYCLES[0],
         LONG[1]
     );

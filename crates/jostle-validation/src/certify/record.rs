@@ -245,7 +245,7 @@ pub fn page(old: &str, records: &[Record]) -> Result<String, String> {
     let mut text = before.to_owned();
     let _ = writeln!(
         text,
-        "\n{}. Errors are in tolerances, relative to the greatest of their kind in the building or gap.\n\n\
+        "\n{}. Errors are given as multiples of the tolerance.\n\n\
          ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n",
         drawn(records)
     );
