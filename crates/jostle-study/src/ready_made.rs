@@ -137,6 +137,14 @@ pub fn ready_made(
             Some(reason) => notes.push(format!("{} is not varied: {reason}", block.name)),
         }
     }
+    if name == "gap-sweep" && !kept.iter().any(|block| block.name == "gap") {
+        let reason = notes.iter().find(|note| note.starts_with("gap"));
+        let reason = reason.map_or_else(String::new, |note| format!(": {note}"));
+        let problem = format!(
+            "the study gap-sweep varies the gap, and cannot here{reason}; jostle gap computes the force over the gap, and a study file can vary at, such as path = \"building[1].at[0]\""
+        );
+        return Err(input.fault("gap", problem));
+    }
     let mut text = (*head).to_owned();
     for note in &notes {
         text += &format!("# {}\n", note.replace('\n', " "));

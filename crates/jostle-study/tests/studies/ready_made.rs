@@ -185,6 +185,14 @@ fn what_cannot_be_varied_is_said() {
     let said = refused.expect_err("a model without gap").to_string();
     assert!(said.contains("has no gap"), "{said}");
 
+    let closed = OWN.replace("\"50 mm\"", "0");
+    let refused = ready_made("gap-sweep", Some(tree(&closed))).map(|_| ());
+    let said = refused.expect_err("a gap that stays closed").to_string();
+    assert!(
+        said.contains("gap[0].width is 0") && said.contains("building[1].at[0]"),
+        "{said}"
+    );
+
     // Records as they are share no peak: they are scaled to common ones, and that is said.
     let two = OWN.replace("pga = \"0.31 g\"\n", "").replace(
         "\"el-centro-1940-ns\"",

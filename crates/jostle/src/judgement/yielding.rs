@@ -256,10 +256,13 @@ fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str, &str)) {
         if structure_yields(model) || model.base.isolation.is_some() || building.mass_kg <= 0.0 {
             continue;
         }
-        let shear = building.response.base_shear_peak_n / (STANDARD_GRAVITY * building.mass_kg);
+        let across = building
+            .in_plan
+            .map_or(0.0, |plan| plan.base_shear_across_peak_n);
+        let shear = building.response.base_shear_peak_n.max(across);
         add(
-            building.response.drift_peak / YIELD_DRIFT,
-            shear,
+            building.greatest_drift() / YIELD_DRIFT,
+            shear / (STANDARD_GRAVITY * building.mass_kg),
             &building.name,
             match panels_yield(model) {
                 true => "is elastic apart from its infill panels",
