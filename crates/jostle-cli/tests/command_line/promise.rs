@@ -158,10 +158,10 @@ fn pair(folder: &std::path::Path, solver: &str, gap: f64) -> Value {
     serde_json::from_str(&printed(&output)).expect("a summary")
 }
 
-/// A contact that is missed by no more than the run may be off is reported, one that is missed clearly is not: by a hundredth of the
-/// gap, or by less than the tolerance where the run is known much better.
+/// A contact that is missed or made by no more than the run may be off is reported, one that is missed clearly is not: by a hundredth of
+/// the gap, or by less than the tolerance where the run is known much better.
 #[test]
-fn contacts_just_missed_are_sensitive() {
+fn contacts_just_missed_or_made_are_sensitive() {
     let folder = common::folder();
     for solver in ["modal", "riccati"] {
         let run = |gap: f64| pair(folder.path(), solver, gap);
@@ -186,5 +186,9 @@ fn contacts_just_missed_are_sensitive() {
             "{solver}: {from} s, nearest at {nearest} s"
         );
         assert!(clearly["promise"]["sensitive_from_s"].is_null());
+        let made = run((1.0 - error) * needed);
+        assert!(made["gaps"][0]["impact_count"].as_u64() > Some(0));
+        let from = made["promise"]["sensitive_from_s"].as_f64();
+        assert!(from.is_some(), "{solver}: {}", made["promise"]);
     }
 }

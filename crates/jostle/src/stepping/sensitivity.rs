@@ -17,7 +17,7 @@ use crate::system::{BuildingSystem, System};
 /// closings being known better.
 const CHANGE: f64 = 0.1;
 
-/// Reduction of the gap of a contact just missed, in estimated errors of its greatest closing, but at most a tolerance.
+/// Change of the gap of a contact just missed or just made, in estimated errors of its greatest closing, but at most a tolerance.
 const NARROWER: f64 = 2.0;
 
 /// Its least value, in tolerances: touches are found by curves through both ends of a step, closings more accurately.
@@ -37,10 +37,10 @@ const FEW_IMPACTS: usize = 12;
 /// relative to its greatest closing, or to a tenth of the displacement of the contact floors if that is more. The run
 /// is repeated with the same steps. If reported peaks change by more than the tolerance, relative to the greatest of
 /// their kind in the building or gap, the first impact that differs by as much gives the instant. How results hang on
-/// the gap itself is another question. If a contact stays open and its closing is within twice the estimated error of
-/// the gap, the gap is made narrower instead, so that the contact is made. Where the tolerance is not met and impacts
+/// the gap itself is another question. If the greatest closing of a contact is within twice the estimated error of the gap, the gap is
+/// changed by as much, so that a contact just missed is made, and one just made is missed. Where the tolerance is not met and impacts
 /// differ between two step sizes, the instant is not later than the first of these. Other runs with at most twelve
-/// impacts, none of them doubtful, are not repeated; nor are those of buildings that yield, unless they are stepped by
+/// impacts, none of them doubtful or just made, are not repeated; nor are those of buildings that yield, unless they are stepped by
 /// power series.
 ///
 /// `shapes`: those that the run by modes began with, if they are at hand; they are found again without.
@@ -82,20 +82,20 @@ fn sensitive_from(
         error.min(CHANGE * tolerance),
         (NARROWER * error).clamp(LEAST_NARROWER * tolerance, tolerance),
     );
-    let near_misses: Vec<bool> = (0..system.contacts.len())
-        .map(|contact| nearly_touches(system, outcome, contact, narrower))
+    let decided: Vec<Option<f64>> = (0..system.contacts.len())
+        .map(|contact| decided_otherwise(system, outcome, contact, narrower))
         .collect();
     let few = doubtful.is_none() && outcome.impacts.len() <= FEW_IMPACTS;
     if outcome.end != RunEnd::Completed
         || system.buildings.iter().any(yields)
-        || (!near_misses.contains(&true) && (outcome.impacts.is_empty() || few))
+        || (decided.iter().all(Option::is_none) && (outcome.impacts.is_empty() || few))
     {
         return unresolved;
     }
     let mut changed = system.clone();
-    let contacts = changed.contacts.iter_mut().zip(&near_misses).enumerate();
-    for (index, (contact, near_miss)) in contacts {
-        let change = if *near_miss { -narrower } else { wider };
+    let contacts = changed.contacts.iter_mut().zip(&decided).enumerate();
+    for (index, (contact, decided)) in contacts {
+        let change = decided.unwrap_or(wider);
         let closing = outcome.peaks.closing(index).value;
         let scale = closing_scale(contact, closing, |building, floor| {
             outcome.peaks.sway(building, floor)
@@ -130,14 +130,19 @@ pub(super) fn closing_scale(
     closing.max(SWAY * sways.fold(0.0, f64::max))
 }
 
-/// Whether a contact without impact comes within the tolerance of one.
-fn nearly_touches(system: &System, outcome: &Outcome, contact: usize, tolerance: f64) -> bool {
+/// Change of the gap of a contact that makes it if it was just missed, and misses it if it was just made, relative to its greatest
+/// closing; `None` where the change would have to exceed `most`.
+fn decided_otherwise(system: &System, outcome: &Outcome, contact: usize, most: f64) -> Option<f64> {
     let (width, closing) = (
         system.contacts[contact].width,
         outcome.peaks.closing(contact).value,
     );
-    impacts(outcome, contact).next().is_none()
-        && (width - closing).abs() < tolerance * width.max(closing)
+    let missed = impacts(outcome, contact).next().is_none();
+    ((width - closing).abs() < most * width.max(closing)).then_some(if missed {
+        -most
+    } else {
+        most
+    })
 }
 
 /// Instant at which impacts of two runs first differ in force or impulse by more than the tolerance of the greatest of
