@@ -243,16 +243,16 @@ impl Expectation {
             }
         };
         // Said where it matters: few runs need more than one refinement.
-        let finer = if self.longest > 1.0 && self.longest * seconds > PATIENCE {
-            format!(
-                "; at most {} times as long where the tolerance asks for finer steps",
-                self.longest.round()
-            )
-        } else {
-            String::new()
+        let longest = self.longest * seconds;
+        let finer = match self.longest > 1.0 && longest > PATIENCE {
+            true => format!(
+                ", up to {} if the tolerance requires finer steps",
+                in_time(longest).trim_start_matches("about ")
+            ),
+            false => String::new(),
         };
         format!(
-            "{} of computing on this machine, about {} of memory, {rows}{finer}",
+            "{} of computing on this machine{finer}, about {} of memory, {rows}",
             in_time(seconds),
             in_bytes(self.memory)
         )

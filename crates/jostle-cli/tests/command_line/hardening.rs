@@ -347,7 +347,7 @@ stiffness = "150 MN/m"
         "{told}"
     );
     for part in [
-        " of computing on this machine, about ",
+        " of computing on this machine",
         " MB of memory, ",
         " rows of histories (history.parquet about ",
     ] {

@@ -16,6 +16,9 @@ const OF_A_STEP: f64 = 20.0;
 const OF_A_LINK: f64 = 5.0;
 const OF_A_NONLINEAR_LINK: f64 = 300.0;
 
+/// Work of a spring that yields in a step, in displacements.
+const OF_A_SPRING: f64 = 5.0;
+
 /// Iterations of Newton's method on links that are not linear.
 const ITERATIONS: f64 = 3.0;
 
@@ -45,12 +48,16 @@ impl HistorySize {
 }
 
 impl Plan {
-    /// Expected work of a run: regular steps times displacements, plus a constant per step and building, and the equations
-    /// of links and dampers. Steps in contact are not counted \[–\].
+    /// Expected work of a run: regular steps times displacements, plus a constant per step and building, springs that yield, and the
+    /// equations of links and dampers. Steps in contact are not counted \[–\].
     #[must_use]
     pub fn expected_work(&self, system: &System, duration: f64) -> f64 {
-        let of_a_step =
-            system.len() as f64 + OF_A_STEP * system.buildings.len() as f64 + work_of_links(system);
+        let springs = system.buildings.iter();
+        let springs: usize = springs.map(|building| building.spring_range().len()).sum();
+        let of_a_step = system.len() as f64
+            + OF_A_STEP * system.buildings.len() as f64
+            + OF_A_SPRING * springs as f64
+            + work_of_links(system);
         (duration / self.step).ceil() * of_a_step
     }
 
