@@ -196,7 +196,7 @@ mod tests {
             force += value;
             moment += value * (0.5 * section.depth - depth);
         };
-        let slices = 2000;
+        let slices = 400;
         for slice in 0..slices {
             let part = section.depth / f64::from(slices);
             let depth = (f64::from(slice) + 0.5) * part;
@@ -230,7 +230,7 @@ mod tests {
             {
                 continue;
             }
-            for _ in 0..60 {
+            for _ in 0..45 {
                 let middle = 0.5 * (low + high);
                 if sums(section, top, middle)[0] > compression {
                     high = middle;
