@@ -9,7 +9,7 @@
 //! Until it fails, its strength may be lowered ([`HysteresisMemory::weaken`](super::Hysteresis::weaken)).
 
 use super::backbone::{Backbone, Corner, Side};
-use super::memory::{Branch, HysteresisMemory, Response};
+use super::memory::{Branch, HysteresisMemory, Response, before_corner};
 
 /// What happens beyond the strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,6 +174,30 @@ pub(super) fn respond(
         here = end;
         enter(&mut next, follows, here, towards);
     }
+}
+
+/// Force and tangent on the line of the spring; `None` where it turns back or comes to a corner, and on the curve of first loading,
+/// where peaks move along.
+#[inline]
+pub(super) fn on_the_line(
+    backbone: &Backbone,
+    falling: &FallingBranch,
+    memory: &HysteresisMemory,
+    deformation: f64,
+) -> Option<[f64; 2]> {
+    let towards = Side::from_change(deformation - memory.deformation);
+    let turns_back = memory.branch == Branch::Reloading && memory.side != towards;
+    if turns_back || memory.branch == Branch::Backbone {
+        return None;
+    }
+    let curve = Curve::new(backbone, falling, memory);
+    let line = ahead(&curve, memory, towards);
+    before_corner(
+        line.through,
+        line.slope,
+        line.end.map(|(end, _)| end),
+        [towards.sign(), deformation],
+    )
 }
 
 /// Leaves a branch in the opposite direction.

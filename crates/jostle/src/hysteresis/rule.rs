@@ -582,6 +582,13 @@ impl Hysteresis {
             HysteresisRule::Pinched(_) | HysteresisRule::Ground => {
                 pinched::on_the_line(&self.backbone, memory, deformation)
             }
+            HysteresisRule::Failing(falling) => {
+                failing::on_the_line(&self.backbone, &falling, memory, deformation)
+            }
+            HysteresisRule::Elastic => {
+                let stiffness = self.backbone.initial();
+                Some([stiffness * deformation, stiffness])
+            }
             _ => None,
         }
     }
@@ -604,19 +611,19 @@ impl Hysteresis {
                     memory.stand_at(deformation, answer.force, Side::from_change(change));
                 }
             }
-            HysteresisRule::PeakOriented
+            HysteresisRule::Elastic
+            | HysteresisRule::PeakOriented
             | HysteresisRule::Takeda { .. }
             | HysteresisRule::Pinched(_)
-            | HysteresisRule::Ground => match self.on_the_line(memory, deformation) {
+            | HysteresisRule::Ground
+            | HysteresisRule::Failing(_) => match self.on_the_line(memory, deformation) {
                 Some([force, _]) => memory.move_on_the_line(deformation, force),
                 None => *memory = self.respond(memory, deformation).memory,
             },
-            HysteresisRule::Elastic
-            | HysteresisRule::DegradingTrilinear
+            HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
-            | HysteresisRule::Failing(_)
             | HysteresisRule::Buckling(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
