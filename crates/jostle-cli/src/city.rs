@@ -453,7 +453,7 @@ fn described(city: &City, answers: &Answers) -> String {
     if let Some((within, worst)) = answers.sampled.within(city.file.tolerance) {
         let _ = writeln!(
             text,
-            "  {} again in full: {:.1} % of their peaks within {}, the worst {worst:.1e} away",
+            "  {} again in full: {:.1} % of their peaks within {}, largest difference {worst:.1e}",
             counted(answers.sampled.rows, "row"),
             100.0 * within,
             city.file.tolerance
@@ -461,7 +461,7 @@ fn described(city: &City, answers: &Answers) -> String {
     }
     let _ = writeln!(
         text,
-        "  Probabilities over draws, not the fate of any building; gaps and what the inventory lacks are assumed."
+        "  Probabilities hold over all draws, not for one building; gaps and data missing from the inventory are assumed."
     );
     text
 }

@@ -160,7 +160,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         writeln!(
             text,
             "Many studies take 10 to 100 times the lateral stiffness of the stiffer neighbour for linear laws. \n\
-             \"{}\", lateral stiffness at this floor: {:.2e} {unit}, which gives {:.1e} to {:.1e} {unit}. It is a habit, not a measurement.",
+             \"{}\", lateral stiffness at this floor: {:.2e} {unit}, which gives {:.1e} to {:.1e} {unit}. This range is a convention, not a measurement.",
             rule.of,
             STIFFNESS.of(rule.lateral_n_m),
             STIFFNESS.of(rule.low_n_m),

@@ -324,7 +324,7 @@ fn result(out: &Path, no_report: bool) -> PathBuf {
 /// Whether the run counts as done.
 fn ending(end: &RunEnd, out: Option<&Path>) -> Result<(), Failure> {
     let kept = out.map_or_else(String::new, |out| {
-        format!("; what was computed until then is in {}", out.display())
+        format!("; results up to then are in {}", out.display())
     });
     match end {
         RunEnd::Completed => Ok(()),

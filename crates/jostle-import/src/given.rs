@@ -446,7 +446,7 @@ fn in_space(
             "name the .e2k file of the model beside the workbook",
         ));
     };
-    remarks.push("outline of floors: convex hull of their joints; slabs that project and corners that re-enter are not in it: correct plan where a neighbour is near".into());
+    remarks.push("outline of floors: convex hull of their joints, without projecting slabs and re-entrant corners: correct plan where a neighbour is near".into());
     block.push_str(&plan);
     let mut mass = Vec::new();
     let mut ports = Vec::new();

@@ -189,7 +189,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
         );
     }
     block.push_str(&plan);
-    let mut remarks = vec!["outline of floors: convex hull of their joints; slabs that project and corners that re-enter are not in it: correct plan where a neighbour is near".to_owned()];
+    let mut remarks = vec!["outline of floors: convex hull of their joints, without projecting slabs and re-entrant corners: correct plan where a neighbour is near".to_owned()];
     let _ = writeln!(
         block,
         "mass = {}",

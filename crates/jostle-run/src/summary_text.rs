@@ -824,7 +824,7 @@ fn write_gradients(text: &mut String, gradients: &[Gradient]) -> std::fmt::Resul
     for gradient in shown {
         writeln!(
             text,
-            "  {:<44} {:<26} {:>+8.3} %   a line up to ±{:.1} %",
+            "  {:<44} {:<26} {:>+8.3} %   linear within ±{:.1} %",
             gradient.of,
             gradient.by,
             gradient.elasticity(),

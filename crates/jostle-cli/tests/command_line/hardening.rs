@@ -409,7 +409,7 @@ fn a_run_without_room_for_its_histories_says_so() {
         "histories cannot be kept from t = ",
         "a temporary file in missing cannot be written: No such file or directory",
         "set TMPDIR to a folder with more, or write a longer interval under [output]",
-        "what was computed until then is in r",
+        "results up to then are in r",
     ] {
         assert!(told.contains(part), "{part}: {told}");
     }

@@ -174,7 +174,7 @@ fn run_here(
     }
     if !(USUAL_FACTORS.contains(&factors[0]) && USUAL_FACTORS.contains(&factors[1])) {
         warnings.push(format!(
-            "records are scaled by {:.3} to {:.3}; beyond 0.1 to 10 their shape hardly suits their strength",
+            "records are scaled by {:.3} to {:.3}; outside 0.1 to 10 the shape of a record rarely fits its intensity",
             factors[0], factors[1]
         ));
     }
