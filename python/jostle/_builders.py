@@ -119,7 +119,8 @@ class Frame(Part):
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force;
             ``"steel": "menegotto-pinto"`` bends the loops of their bars, and ``"limits": {"buckling": 0.04}`` states strains
-            by which they are judged.
+            by which they are judged. ``{"rule": "surface", "length": "0.4 m"}`` lets them yield on the interaction diagram
+            instead, or on ``"surface": {"axial": ["-6 MN", "-2 MN", "1 MN"], "moment": ["0 kN.m", "500 kN.m", "0 kN.m"]}``.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         rotation_limit: rotations of hinges at which members reach levels of performance:

@@ -156,12 +156,19 @@ const HINGES_OF_FIBRES: &str = "hinges = { rule = \"fibre\", length = \"0.4 m\" 
 fn of_fibres(kind: &str) -> Option<&'static str> {
     match kind {
         "frame" => Some(OF_FIBRES),
+        "frame, plan" => Some(OF_FIBRES_IN_PLAN),
         "space-frame" => Some(OF_FIBRES_IN_SPACE),
         _ => None,
     }
 }
 
 const OF_FIBRES_IN_SPACE: &str = "column = { size = [0.5, 0.5], steel = \"HRB400\", bars = \"12 d20\" }\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
+
+/// Columns of a frame at lines of a plan whose ends are made of fibres.
+const OF_FIBRES_IN_PLAN: &str = "column = { width = 0.5, depth = 0.5, steel = \"HRB400\", bars = \"12 d20\" }\naxial = \"flexible\"\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
+
+/// Stands for columns that yield on a surface: those of fibres with another rule.
+const SURFACES: &str = "SURFACES";
 
 const OF_FIBRES: &str = "column = { width = 0.5, depth = 0.5, concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\" }\naxial = \"flexible\"\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
 
@@ -195,6 +202,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "walls whose feet are fibres", tables: "[[building.wall]]\nline = 1\nlength = 2\nthickness = 0.25\nconcrete = \"C30\"\nsteel = \"HRB400\"\nbars = { edges = \"6 d16\", edge_length = 0.4, web = \"8 d10\" }\nhinge = { rule = \"fibre\", length = 0.5 }\n", keys: "gravity = true\n", ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
+        Feature { name: "columns that yield on a surface of axial force and moment", keys: SURFACES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
         Feature { name: "limits of rotation", keys: OWN_WORDS, tables: "[[building.rotation_limit]]\nof = \"columns\"\nlimits = { io = 0.005 }\n", ..USUAL },
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
@@ -328,7 +336,7 @@ fn model(kind: usize, feature: &Feature) -> String {
         };
         let columns = match feature.keys {
             COLUMNS => Some(BY_LINE[kind]),
-            FIBRES => of_fibres(building_kind.name),
+            FIBRES | SURFACES => of_fibres(building_kind.name),
             _ => None,
         };
         let (keys, own_tables) = match columns {
@@ -349,13 +357,12 @@ fn model(kind: usize, feature: &Feature) -> String {
                     .replace("spans", &format!("{}spans", YIELDING[0])),
             ),
             OWN_WORDS => (YIELDING[kind], building_kind.tables.to_owned()),
-            FIBRES if columns.is_none() && YIELDING[kind].is_empty() => (
-                "",
-                building_kind
-                    .tables
-                    .replace("spans", &format!("{HINGES_OF_FIBRES}spans")),
-            ),
-            FIBRES if columns.is_none() => (HINGES_OF_FIBRES, building_kind.tables.to_owned()),
+            FIBRES | SURFACES if columns.is_some() && !own_tables.is_empty() => {
+                ("gravity = true\n", own_tables)
+            }
+            FIBRES | SURFACES if columns.is_none() => {
+                (HINGES_OF_FIBRES, building_kind.tables.to_owned())
+            }
             BARS => ("", building_kind.tables.to_owned()),
             // Frames at lines of a plan have theirs in their tables.
             _ if columns.is_some() && building_kind.tables.contains("column =") => ("", own_tables),
@@ -391,6 +398,7 @@ fn model(kind: usize, feature: &Feature) -> String {
         let block = format!("{heights}{keys}{place}{more}{tables}{added}");
         let block = match feature.keys {
             BARS => with_bars(&block),
+            SURFACES => block.replace("\"fibre\"", "\"surface\""),
             _ => block,
         };
         let _ = write!(text, "[[building]]\nname = \"{name}\"\n{block}");

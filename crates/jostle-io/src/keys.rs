@@ -96,6 +96,8 @@ pub(crate) enum Section {
     FibreSteel,
     /// Strains at which fibres fail.
     FibreLimits,
+    /// Axial forces and moments that a section bears.
+    HingeSurface,
     /// Springs and dashpots under any building.
     ShearBase,
     /// Further ones under the columns of a frame.
@@ -462,6 +464,8 @@ pub(crate) const WALL_HINGES: &[&str] = &["foot", "all"];
 pub(crate) const AXIAL_FIRST: &[&str] = &["refuse", "axial-limit"];
 /// Rules of hinges of frames: fibres are several springs.
 pub(crate) const HINGE_RULES: &[&str] = &joined::<8>(&[RULES, &["fibre"]]);
+/// Those of columns of plane frames, whose ends may yield on a surface as well.
+pub(crate) const FRAME_HINGE_RULES: &[&str] = &joined::<9>(&[HINGE_RULES, &["surface"]]);
 /// Where fibres stand: at both ends of all columns, or at their feet on the ground.
 pub(crate) const FIBRE_ENDS: &[&str] = &["both", "base"];
 /// How bars of fibres go through loops.
@@ -1104,6 +1108,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::FibreLimits, "crushing", Quantity(D::Dimensionless), "0.004 + 1.4 ρ_s f_y ε_su/f_cc", "Compressive strain at which the confined concrete crushes.").usual("a strain", 2e-3, 0.2),
     optional(S::FibreLimits, "buckling", Quantity(D::Dimensionless), "Tensile strain of bars beyond which they buckle on load reversal. No rule computes it; without this key bar buckling is not checked.").usual("a strain", 2e-3, 0.2),
     default(S::FibreLimits, "fracture", Quantity(D::Dimensionless), "rupture strain of the steel", "Tensile strain at which bars fracture.").usual("a strain", 5e-3, 0.5),
+    required(S::HingeSurface, "axial", Quantities(D::Force), "Axial forces at the corners of the surface in ascending order, tension positive: 3 to 12, the first in compression and the last in tension.").usual("an axial force", 1e3, 1e9).signed(),
+    required(S::HingeSurface, "moment", Quantities(D::Moment), "Moment capacity at each of them, at least 0; the surface is the same for negative moments, and must be convex.").usual("a moment", 1e3, 1e9),
     required(S::FibreSteel, "rule", Choice(FIBRE_STEELS), "Hysteresis rule of the bars."),
     default(S::FibreSteel, "R0", Quantity(D::Dimensionless), "20", "menegotto-pinto: exponent of the first curve, 1 or more; smaller values give a more gradual transition.").usual("an exponent", 5.0, 30.0),
     default(S::FibreSteel, "cR1", Quantity(D::Dimensionless), "0.925", "menegotto-pinto: fraction by which plastic deformation can reduce the exponent.").usual("a fraction of an exponent", 0.5, 0.97),
@@ -1140,7 +1146,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::ShearFailure, "axial_first", Choice(AXIAL_FIRST), "\"refuse\"", "rule: treatment of columns whose axial failure would precede shear failure, by Elwood and Moehle. \"refuse\" rejects the model. \"axial-limit\": shear decreases from the shear strength until the drift at axial failure; the axial load is kept."),
     default(S::ShearFailure, "residual", Quantity(D::Dimensionless), "0", "Ratio of residual shear strength to that at failure.").usual("a ratio", 1e-4, 1.0),
     default(S::ShearFailure, "ends", Choice(SHEAR_ENDS), "both where neighbours can hit a column between floors", "Ends of columns that have shear springs."),
-    required(S::Hinges, "rule", Choice(HINGE_RULES), "Unloading and reloading rule of hinges. fibre: column ends consist of concrete and steel fibres, so that their strength depends on the axial force."),
+    required(S::Hinges, "rule", Choice(FRAME_HINGE_RULES), "Unloading and reloading rule of hinges. fibre: column ends consist of concrete and steel fibres, so that their strength depends on the axial force. surface: column ends yield on a surface of axial force and moment, with associated flow."),
     default(S::Hinges, "gamma", Quantity(D::Dimensionless), "0.4", "takeda: exponent of the unloading stiffness.").usual("an exponent", 1e-3, 1.0),
     optional(S::Hinges, "pinching", Kind::Table(S::Pinching), "pinched, required: point at which reloading stiffens."),
     default(S::Hinges, "unloading_exponent", Quantity(D::Dimensionless), "0", "pinched: exponent with which the unloading stiffness decreases as the peak grows, 0 to 1.").usual("an exponent", 1e-3, 1.0),
@@ -1150,16 +1156,18 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "method", Choice(HINGE_METHODS), "\"formula\"", "Published formulas, or fibre analysis."),
     optional(S::Hinges, "column", TablePerStorey(S::Hinge), "Hinges of the columns; without this table they are elastic."),
     optional(S::Hinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams; without this table they are elastic."),
-    optional(S::Hinges, "length", WordOr("paulay-priestley", D::Length), "Plastic hinge length of the fibres; \"paulay-priestley\" is 0.08 L + 0.022 d f, with half the storey height L, the diameter d of the thickest bars and their yield strength f in MPa. Required with rule = \"fibre\".").usual("a hinge length", 0.02, 5.0),
+    optional(S::Hinges, "length", WordOr("paulay-priestley", D::Length), "Plastic hinge length of the fibres, or of ends on a surface; \"paulay-priestley\" is 0.08 L + 0.022 d f, with half the storey height L, the diameter d of the thickest bars and their yield strength f in MPa. Required with rule = \"fibre\" and rule = \"surface\".").usual("a hinge length", 0.02, 5.0),
+    default(S::Hinges, "surface", Kind::Table(S::HingeSurface), "the interaction diagram of the section", "surface: axial forces and moments that columns bear."),
+    default(S::Hinges, "post_yield", Quantity(D::Dimensionless), "0.01", "surface: ratio of post-yield stiffness to EA and EI over the length, at least 0 and below 1 (kinematic hardening).").usual("a stiffness ratio", 1e-6, 0.5),
     default(S::Hinges, "fibres", Count, "20", "Concrete layers over the depth of a column, 2 to 400."),
-    default(S::Hinges, "ends", Choice(FIBRE_ENDS), "\"both\"", "Positions of the fibres: at both ends of all columns, or only at the base of the lowest ones."),
+    default(S::Hinges, "ends", Choice(FIBRE_ENDS), "\"both\"", "Positions of the fibres or surfaces: at both ends of all columns, or only at the base of the lowest ones."),
     default(S::Hinges, "peak_strain", Quantity(D::Dimensionless), "that of the concrete, confined if there are ties", "Strain of concrete at its peak strength.").usual("a strain", 1e-3, 2e-2),
     default(S::Hinges, "residual", Quantity(D::Dimensionless), "0.2", "Ratio of residual to peak strength of crushed concrete.").usual("a ratio", 1e-3, 1.0),
     default(S::Hinges, "ultimate_strain", Quantity(D::Dimensionless), "from the straight line through its stress at the crushing strain", "Strain at which concrete reaches its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::Hinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Ratio of post-yield to elastic modulus of the bars.").usual("a stiffness ratio", 1e-4, 0.2),
     default(S::Hinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Hysteresis of the bars: bilinear, or `\"menegotto-pinto\"` with smooth curves; a table gives its parameters."),
     optional(S::Hinges, "limits", Kind::Table(S::FibreLimits), "Strain limits to check, instead of those that follow from the sections."),
-    default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the beam hinges if columns have fibres; from = \"section\" computes their moments."),
+    default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the beam hinges if columns have fibres or surfaces; from = \"section\" computes their moments."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
     optional(S::Hinge, "yield", Quantity(D::Moment), "Yield moment.").usual("a yield moment", 1e3, 1e9),

@@ -54,6 +54,7 @@ mod space_hinges;
 mod space_walls;
 mod stated;
 mod steel_profile;
+mod surface_hinges;
 #[cfg(test)]
 mod tests;
 mod unusual_results;

@@ -610,9 +610,19 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
         Some(SpringPlace::Shear { storey, line, end }) => {
             ("column shear", Some(storey), Some(line), end.of_column())
         }
-        Some(SpringPlace::Fibre { member, end, .. }) => {
+        Some(SpringPlace::Fibre {
+            member, end, point, ..
+        }) => {
             let (storey, line) = storey_and_line(member);
-            ("column fibre", Some(storey), Some(line), end.of_column())
+            let at = point.map_or(end.of_column(), |_| "struck");
+            ("column fibre", Some(storey), Some(line), at)
+        }
+        Some(SpringPlace::Surface {
+            member, end, point, ..
+        }) => {
+            let (storey, line) = storey_and_line(member);
+            let at = point.map_or(end.of_column(), |_| "struck");
+            ("column surface", Some(storey), Some(line), at)
         }
         Some(SpringPlace::Sliding { member, .. }) => match member {
             MemberPlace::Column { line, storey } => ("wall shear", Some(storey), Some(line), ""),

@@ -87,7 +87,8 @@ fn plot(page: &Page, end: &End<'_>, plane: usize) -> Option<Plot> {
         colour: end.building,
         dashed: false,
     }];
-    let member = end.section.member.to_string();
+    let discretization = &page.system.buildings[end.building].discretization;
+    let member = discretization.column_of_section(&end.section);
     let mut known = page.sections.iter();
     let known = known.find(|candidate| {
         candidate.building == end.building && candidate.members.iter().any(|name| *name == member)

@@ -36,12 +36,12 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 
 fn sentence(name: &str, all: &[FibreSummary]) -> String {
     let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|fibre| has(fibre)).count();
-    let mut text = message::ends_that_yielded_and_crushed(
-        name,
-        count(|end| end.yielded_s.is_some()),
-        count(|end| end.crushed_s.is_some()),
-        all.len(),
-    );
+    let yielded = count(|end| end.yielded_s.is_some());
+    if count(|end| end.steel_strain.is_none() && end.concrete_strain.is_none()) == all.len() {
+        return message::ends_that_yielded_on_surfaces(name, yielded, all.len());
+    }
+    let crushed = count(|end| end.crushed_s.is_some());
+    let mut text = message::ends_that_yielded_and_crushed(name, yielded, crushed, all.len());
     let limits = FibreLimit::ALL.into_iter().filter_map(|limit| {
         let judged = all.iter().flat_map(|fibre| &fibre.limits);
         let judged: Vec<_> = judged

@@ -110,10 +110,27 @@ pub(crate) fn coordinates(page: &Page, place: &Place) -> (char, usize, usize, us
         },
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
-        SpringPlace::Fibre { member, end, .. } => match member {
-            MemberPlace::Column { line, storey } => ('c', storey, line, last(end)),
-            MemberPlace::InSpace(place) => ('s', place.storey() + 1, 0, last(end)),
-            MemberPlace::Beam { floor, span } => ('b', floor, span, last(end)),
+        SpringPlace::Fibre {
+            frame,
+            member,
+            end,
+            point,
+            ..
+        }
+        | SpringPlace::Surface {
+            frame,
+            member,
+            end,
+            point,
+            ..
+        } => match (frame.or(point), member) {
+            (None, MemberPlace::Column { line, storey }) => ('c', storey, line, last(end)),
+            (None, MemberPlace::Beam { floor, span }) => ('b', floor, span, last(end)),
+            (
+                _,
+                MemberPlace::Column { storey: level, .. } | MemberPlace::Beam { floor: level, .. },
+            ) => ('s', level, 0, 0),
+            (_, MemberPlace::InSpace(place)) => ('s', place.storey() + 1, 0, last(end)),
         },
         SpringPlace::Storey { storey }
         | SpringPlace::PlanStorey { storey, .. }

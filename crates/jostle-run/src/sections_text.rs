@@ -20,6 +20,10 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
         };
         let count =
             |has: fn(&FibreSummary) -> bool| all.iter().filter(|section| has(section)).count();
+        if worst.concrete_strain.is_none() && worst.steel_strain.is_none() {
+            write_surfaces(text, building, count(|own| own.yielded_s.is_some()))?;
+            continue;
+        }
         writeln!(
             text,
             "\nColumns of {}: bars yielded at {} of {}, concrete passed its strength at {}; {:.2} ‰ of compression in {}, under {} to {}",
@@ -35,6 +39,35 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
         write_limits(text, all)?;
     }
     Ok(())
+}
+
+/// What ends that yield on a surface went through.
+fn write_surfaces(
+    text: &mut String,
+    building: &BuildingSummary,
+    yielded: usize,
+) -> std::fmt::Result {
+    let all = &building.sections;
+    let rotation = |end: &FibreSummary| end.rotation_max_rad.max(-end.rotation_min_rad);
+    let Some(worst) = all
+        .iter()
+        .max_by(|a, b| rotation(a).total_cmp(&rotation(b)))
+    else {
+        return Ok(());
+    };
+    let first = all.iter().filter_map(|end| end.yielded_s);
+    let first = first.reduce(f64::min);
+    let first = first.map_or_else(String::new, |at| format!(", first at {at:.3} s"));
+    writeln!(
+        text,
+        "\nColumns of {}: {yielded} of {} yielded on their surface of axial force and moment{first}; {:.2} mrad in {}, under {} to {}",
+        building.name,
+        counted(all.len(), "end"),
+        1e3 * rotation(worst),
+        worst.name,
+        FORCE.number(-worst.axial_max_n, 0),
+        FORCE.text(-worst.axial_min_n, 0),
+    )
 }
 
 /// Which strains that are judged were passed, where first, and how near the nearest of the others came.

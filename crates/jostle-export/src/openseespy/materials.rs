@@ -121,6 +121,7 @@ impl Materials {
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
+            | HysteresisRule::Surface { .. }
             | HysteresisRule::InPlan { .. }) => Err(rule.name()),
         }
     }

@@ -150,7 +150,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         {
             refuse(
                 format!("building[{index}].hinges"),
-                "of fibres are not exported yet; give columns hinges with moments to compare"
+                "of fibres and surfaces are not exported yet; give columns hinges with moments to compare"
                     .into(),
             );
         }

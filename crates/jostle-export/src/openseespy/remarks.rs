@@ -26,6 +26,7 @@ impl Script<'_> {
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
+            | HysteresisRule::Surface { .. }
             | HysteresisRule::InPlan { .. } => None,
         };
         let mut damped = false;

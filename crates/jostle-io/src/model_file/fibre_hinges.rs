@@ -37,8 +37,13 @@ const LAWS: [&str; 7] = [
 
 /// Whether a table asks for fibres.
 pub(super) fn asked(reader: &mut Reader<'_>, view: &View<'_>) -> bool {
+    has_rule(reader, view, "fibre")
+}
+
+/// Whether a table asks for a rule of this name.
+pub(super) fn has_rule(reader: &mut Reader<'_>, view: &View<'_>, name: &str) -> bool {
     let rule = reader.get(view, "rule");
-    rule.is_some_and(|field| field.as_text() == Some("fibre"))
+    rule.is_some_and(|field| field.as_text() == Some(name))
 }
 
 /// Notes keys of the table of a frame that have no meaning without fibres.
@@ -337,12 +342,7 @@ fn read_all(
     frame: &Frame,
     members: Option<&[ReinforcedMember]>,
 ) -> Option<BTreeMap<FramePlace, ColumnFibres>> {
-    if !frame.axial.columns_flexible {
-        *reader.bad(
-            field,
-            "needs columns that change their length: without it their axial force is not known",
-        ) = Some("add axial = \"flexible\" to the building".into());
-    }
+    needs_flexible_columns(reader, field, frame);
     let asked = AskedFibres::read(reader, view, false)?;
     let columns: Vec<_> = members?
         .iter()
@@ -376,6 +376,16 @@ fn read_all(
     Some(all)
 }
 
+/// Notes columns that keep their length.
+pub(super) fn needs_flexible_columns(reader: &mut Reader<'_>, field: &Field<'_>, frame: &Frame) {
+    if !frame.axial.columns_flexible {
+        *reader.bad(
+            field,
+            "needs columns that change their length: without it their axial force is not known",
+        ) = Some("add axial = \"flexible\" to the building".into());
+    }
+}
+
 /// Notes columns without bars.
 pub(super) fn say_without_bars(reader: &mut Reader<'_>, field: &Field<'_>, none_has: bool) {
     let some = if none_has { "no" } else { "not every" };
@@ -384,8 +394,12 @@ pub(super) fn say_without_bars(reader: &mut Reader<'_>, field: &Field<'_>, none_
     );
 }
 
-/// Notes moments of columns beside fibres.
-pub(super) fn say_either(reader: &mut Reader<'_>, field: &Field<'_>) {
-    *reader.bad(field, "cannot be combined with rule = \"fibre\"") =
-        Some("remove it: fibres follow from the bars of the columns".into());
+/// Notes moments of columns beside fibres, or a surface.
+pub(super) fn say_either(reader: &mut Reader<'_>, field: &Field<'_>, rule: &str) {
+    let instead = match rule {
+        "surface" => "give surface, or bars in column, for what columns bear",
+        _ => "fibres follow from the bars of the columns",
+    };
+    *reader.bad(field, format!("cannot be combined with rule = \"{rule}\"")) =
+        Some(format!("remove it: {instead}"));
 }

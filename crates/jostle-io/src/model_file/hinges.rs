@@ -15,6 +15,7 @@ use super::fibre_hinges;
 use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
 use super::rigid_ends;
+use super::surface_hinges;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View, join};
@@ -38,6 +39,11 @@ pub(super) fn read_rule_at(
     let name = match reader.get(view, key) {
         Some(field) if field.as_text() == Some("buckling") => {
             *reader.bad(&field, "is a rule of braces alone") =
+                Some(format!("set {key} to one of {}", RULES.join(", ")));
+            None
+        }
+        Some(field) if field.as_text() == Some("surface") => {
+            *reader.bad(&field, "is a rule of columns of plane frames alone") =
                 Some(format!("set {key} to one of {}", RULES.join(", ")));
             None
         }
@@ -176,7 +182,13 @@ pub(super) fn read_frame(
     members: Option<&[ReinforcedMember]>,
 ) -> Option<Hinges> {
     let view = reader.open(field, &[Section::Hinges])?;
-    let fibres = if fibre_hinges::asked(reader, &view) {
+    let on_surface = surface_hinges::asked(reader, &view);
+    if !on_surface {
+        surface_hinges::refuse(reader, &view);
+    }
+    let fibres = if on_surface {
+        Some(surface_hinges::read(reader, field, &view, frame, members))
+    } else if fibre_hinges::asked(reader, &view) {
         Some(fibre_hinges::read(reader, field, &view, frame, members))
     } else {
         fibre_hinges::refuse(reader, &view);
@@ -223,7 +235,8 @@ pub(super) fn read_frame(
         return with_fibres(hinges, fibres);
     }
     if let (Some(_), Some(field)) = (&fibres, reader.get(&view, "column")) {
-        fibre_hinges::say_either(reader, &field);
+        let rule = if on_surface { "surface" } else { "fibre" };
+        fibre_hinges::say_either(reader, &field, rule);
     }
     let (columns, beams) = (
         read_members(reader, &view, "column", frame, rule, initial),
@@ -657,6 +670,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Concrete(_)
         | HysteresisRule::MenegottoPinto(_)
         | HysteresisRule::Pendulums(_)
+        | HysteresisRule::Surface { .. }
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,
             yielding: yielding?,

@@ -85,7 +85,10 @@ fn read(
         None => most,
     };
     let frame = frame::read_in_plan(reader, view, &storey_heights[..storeys]);
+    let noted = reader.count_faults();
     let reinforced = reinforced::read(reader, view, &frame);
+    let members =
+        (reader.count_faults() == noted).then(|| reinforced::unloaded(&frame, &reinforced));
     let base = read_base(reader, view, false);
     let hinges = reader.get(view, "hinges").and_then(|field| {
         let table = reader.reopen(&field, &[Section::Hinges]);
@@ -94,13 +97,7 @@ fn read(
                 Some("give the moments of column and beam".into());
             return None;
         }
-        let rule = table.as_ref().and_then(|table| reader.get(table, "rule"));
-        if let Some(rule) = rule.filter(|rule| rule.as_text() == Some("fibre")) {
-            *reader.bad(&rule, "is not possible for frames in plan yet") =
-                Some("take another rule, with the moments of column and beam".into());
-            return None;
-        }
-        match hinges::read_frame(reader, &field, &frame, None)? {
+        match hinges::read_frame(reader, &field, &frame, members.as_deref())? {
             Hinges::Frame(hinges) => Some(hinges),
             Hinges::Storeys(_) => None,
         }

@@ -345,6 +345,11 @@ pub(super) fn members(
     Ok(of_frame(index, "", frame, reinforced, load))
 }
 
+/// Those of a frame whose axial forces do not count.
+pub(super) fn unloaded(frame: &Frame, reinforced: &Reinforced) -> Vec<ReinforcedMember> {
+    of_frame(0, "", frame, reinforced, |_, _| 0.0)
+}
+
 /// The same of a sound building with a plan: of its frames at lines of the plan, and of its space frame.
 ///
 /// # Errors

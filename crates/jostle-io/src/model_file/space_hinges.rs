@@ -48,7 +48,7 @@ impl<'n> SpaceHinges<'n> {
         let (rule, fibres) = match of_fibres {
             true => {
                 if let Some(field) = reader.get(&view, "column") {
-                    fibre_hinges::say_either(reader, &field);
+                    fibre_hinges::say_either(reader, &field, "fibre");
                 }
                 let rule = match view.has("beam_rule") {
                     true => read_rule_at(reader, &view, "beam_rule"),
@@ -103,7 +103,7 @@ impl<'n> SpaceHinges<'n> {
         is_column: bool,
     ) -> Option<Moments<'n>> {
         if is_column && self.fibres.is_some() {
-            fibre_hinges::say_either(reader, field);
+            fibre_hinges::say_either(reader, field, "fibre");
             return None;
         }
         let rigid = self.initial == Initial::Rigid;

@@ -10,6 +10,7 @@ use super::places::range;
 use super::section::read_modulus;
 use super::space_frame::{Grid, Material, Member, Sort, lies_in, read_hinge};
 use super::space_hinges::SpaceHinges;
+use super::wall_fibres;
 use crate::keys::{AXES_OF_PLAN, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -143,6 +144,14 @@ fn read<'n>(
         let place = view.span.clone();
         *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") =
             Some("add elastic_modulus = \"30 GPa\" or concrete = \"C30\" to the building".into());
+    }
+    if let Some(hinge) = reader.get(&view, "hinge")
+        && wall_fibres::asked(reader, &hinge)
+    {
+        *reader.bad(&hinge, "has no fibres in a space frame yet") = Some(
+            "give the moments of the wall, such as hinge = { yield = \"2 MN.m\", post_yield = 0.02 }, or describe the building by frames at lines of its plan".into(),
+        );
+        return None;
     }
     // Without a hinge of its own a wall stays elastic, whatever columns do.
     let moments = match view.has("hinge") {

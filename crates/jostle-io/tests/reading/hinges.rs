@@ -1,6 +1,7 @@
 //! Hinges and reinforcement in model files.
 
 use jostle::hysteresis::{HysteresisRule, Pinching, Side};
+use jostle::pushover::{PushSettings, pushover};
 use jostle::{FibreLimit, FrameHinges, Hinges};
 use jostle_io::Input;
 use jostle_testkit::files;
@@ -645,7 +646,135 @@ concrete = "C30"
 axial = "flexible"
 hinges = { rule = "fibre", length = 0.4 }
 "#;
-    says(in_plan, &["is not possible for frames in plan yet"]);
+    says(in_plan, &["no column has bars"]);
+    let with_bars = in_plan.replace(
+        "depth = \"500 mm\" }",
+        "depth = \"500 mm\", steel = \"HRB400\", bars = \"12 d20\" }",
+    );
+    says(&with_bars, &["needs the weight of the building"]);
+}
+
+/// A frame of two storeys whose columns yield on a surface.
+fn on_surface(column: &str, building: &str, hinges: &str) -> String {
+    let building = format!("{building}\nhinges = {{ rule = \"surface\"{hinges} }}");
+    frame(column, "", &building)
+}
+
+const STATED: &str = ", length = 0.4, surface = { axial = [\"-6 MN\", \"-2 MN\", \"1.2 MN\"], moment = [0.0, \"500 kN.m\", 0.0] }";
+
+#[test]
+fn columns_yield_on_surfaces() {
+    // EA and EI over the length, by hand.
+    let hinges = hinges_of(&on_surface("", FLEXIBLE, STATED));
+    assert_eq!(hinges.fibres.len(), 6);
+    let column = &hinges.fibres[&[1, 2]];
+    let corners = column.corners().expect("a surface");
+    let expected = [[-6e6, 0.0], [-2e6, 5e5], [1.2e6, 0.0]];
+    for (corner, expected) in corners.iter().zip(expected) {
+        assert!((corner[0] - expected[0]).abs() < 1.0 && (corner[1] - expected[1]).abs() < 1e-3);
+    }
+    let initial = column.fibres[0].spring.backbone().initial();
+    assert!((2.0 * initial / (30e9 * 0.25 / 0.4) - 1.0).abs() < 1e-12);
+    assert!((column.fibres[0].at[0] - (0.25_f64 / 12.0).sqrt()).abs() < 1e-12);
+    // From bars: pure compression of C30 and 12 d20 of HRB400, and tension of the bars.
+    let bars = r#", steel = "HRB400", bars = "12 d20", cover = "35 mm""#;
+    let by_rule = ", length = \"paulay-priestley\", ends = \"base\", post_yield = 0.0";
+    let hinges = hinges_of(&on_surface(bars, FLEXIBLE, by_rule));
+    assert_eq!(hinges.fibres.len(), 3);
+    let column = &hinges.fibres[&[0, 0]];
+    assert!((column.length - 0.296).abs() < 1e-12, "{} m", column.length);
+    let corners = column.corners().expect("a surface");
+    assert_eq!(corners.len(), 12);
+    let steel = 12.0 * std::f64::consts::PI * 0.01_f64.powi(2) * 400e6;
+    let [compression, tension] = [-corners[0][0], corners[11][0]];
+    assert!((tension / steel - 1.0).abs() < 0.1, "{tension} {steel}");
+    let both = 20.1e6 * 0.25 + steel;
+    assert!(
+        (compression / both - 1.0).abs() < 0.1,
+        "{compression} {both}"
+    );
+}
+
+/// Cantilevers that are pushed over under a constant axial force: the greatest shear with fibres, which crack and crush, and with the
+/// interaction diagram of the same section.
+#[test]
+fn surfaces_bear_what_fibres_bear() {
+    for load in ["200 kN", "800 kN", "1800 kN"] {
+        let text = |hinges: &str| {
+            format!(
+                "[[building]]\nkind = \"frame\"\nstoreys = 1\nstorey_height = 3\nspans = []\nconcrete = \"C30\"\ndensity = 0\nfloor_mass = \"1 t\"\nfloor_load = \"{load}\"\naxial = {{ columns = \"flexible\", beams = \"rigid\" }}\ngravity = true\ncolumn_segments = 1\ncolumn = {{ width = 0.5, depth = 0.5, steel = \"HRB400\", bars = \"12 d20\", cover = 0.035 }}\nhinges = {{ {hinges}, length = 0.4, ends = \"base\" }}\n"
+            )
+        };
+        let [fibres, surface] =
+            ["rule = \"fibre\"", "rule = \"surface\", post_yield = 0.0"].map(|hinges| {
+                let input = read(&text(hinges)).unwrap_or_else(|error| panic!("{error}"));
+                let system = jostle_testkit::runs::assembled(&input.model);
+                let settings = PushSettings {
+                    drift: 0.03,
+                    ..PushSettings::default()
+                };
+                let pushed = pushover(&system.buildings[0], settings).expect("it bears");
+                let shears = pushed.points.iter().map(|point| point.base_shear);
+                shears.fold(0.0, f64::max)
+            });
+        println!("{load}: {fibres} {surface} {}", surface / fibres);
+        assert!(
+            (surface / fibres - 1.0).abs() < 0.04,
+            "{load}: {fibres} {surface}"
+        );
+    }
+}
+
+#[test]
+fn surfaces_that_cannot_be_say_why() {
+    let says = |text: &str, expected: &[&str]| {
+        let error = read(text).expect_err("a fault");
+        for part in expected {
+            assert!(error.contains(part), "{part} is not in {error}");
+        }
+    };
+    says(
+        &on_surface("", "axial = \"rigid\"\ngravity = true", STATED),
+        &["needs columns that change their length"],
+    );
+    says(
+        &on_surface("", "axial = \"flexible\"", STATED),
+        &["needs the weight of the building"],
+    );
+    let bent = STATED.replace("500 kN.m", "-500 kN.m");
+    says(&on_surface("", FLEXIBLE, &bent), &["at least zero"]);
+    let short = STATED.replace("moment = [0.0, ", "moment = [");
+    says(
+        &on_surface("", FLEXIBLE, &short),
+        &["as many moments as axial forces"],
+    );
+    let turned = STATED.replace("-6 MN", "6 MN");
+    says(&on_surface("", FLEXIBLE, &turned), &["ascending order"]);
+    says(
+        &on_surface("", FLEXIBLE, ", length = 0.4"),
+        &["no column has bars"],
+    );
+    says(
+        &on_surface("", FLEXIBLE, ""),
+        &["length", "paulay-priestley"],
+    );
+    let more = |key: &str| format!("{STATED}, {key}");
+    says(
+        &on_surface("", FLEXIBLE, &more("post_yield = 1.0")),
+        &["less than 1"],
+    );
+    says(
+        &on_surface("", FLEXIBLE, &more("residual = 0.2")),
+        &["has no meaning without fibres"],
+    );
+    says(
+        &on_surface("", FLEXIBLE, &more("column = { yield = 1 }")),
+        &["cannot be combined with rule = \"surface\""],
+    );
+    let other = "hinges = { rule = \"bilinear\", post_yield = 0.1, beam = { yield = 2e5, post_yield = 0.02 } }";
+    says(&frame("", "", other), &["has no meaning without a surface"]);
+    let in_space = "[[building]]\nkind = \"space-frame\"\nstoreys = 1\nstorey_height = 3\nlines_x = [0, 5]\nlines_y = [0, 5]\nmass = \"40 t\"\nconcrete = \"C30\"\ncolumn = { size = [0.5, 0.5] }\nbeam_x = { width = 0.3, depth = 0.6 }\nbeam_y = { width = 0.3, depth = 0.6 }\nhinges = { rule = \"surface\", length = 0.4 }\n";
+    says(in_space, &["is a rule of columns of plane frames"]);
 }
 
 /// The bars alone bend smoothly; their first line is that of straight loops.

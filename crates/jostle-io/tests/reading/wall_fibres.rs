@@ -359,9 +359,12 @@ fn faults_of_walls_of_fibres_are_named() {
         "motion = {{ record = \"el-centro-1940-ns\" }}\n[[building]]\nname = \"A\"\nkind = \"frame\"\nplan = [6, 6]\nstoreys = 1\nstorey_height = 3\nmass = \"50 t\"\ngravity = true\n[[building.element]]\nat = [3, 3]\nstiffness = {{ x = 1e3, y = 60e6 }}\n[[building.frame]]\nname = \"F\"\nat = [[0, 0], [0, 6]]\nspans = [6]\nconcrete = \"C30\"\naxial = {{ columns = \"flexible\" }}\nbeam = {{ width = 0.3, depth = 0.5 }}\n{}",
         wall.replace("building.wall", "building.frame.wall")
     );
-    let said = refusal(&in_plan);
-    assert!(
-        said.contains("cannot have fibres in a frame in a plan yet"),
-        "{said}"
-    );
+    let input = sound(&in_plan);
+    let Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
+        panic!("a building with a plan");
+    };
+    let mut frames = tiers.frames.iter();
+    assert!(frames.all(|own| !own.frame.walls[0].fibres.is_empty()));
+    let said = refusal(&in_plan.replace("gravity = true", ""));
+    assert!(said.contains("needs the weight of the building"), "{said}");
 }

@@ -1184,6 +1184,7 @@ messages! {
     // fibres
     columns_that_follow_their_axial_force = "Columns and walls whose strength follows the axial force";
     ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} member ends, and concrete passed its peak strength at {crushed}.";
+    ends_that_yielded_on_surfaces(name, yielded, total) = "{name}: {yielded} of {total} member ends yielded on their surface of axial force and moment.";
     compression = "compression";
     least_to_greatest(least, greatest) = "{least} to {greatest}";
     moment_across = "moment across";

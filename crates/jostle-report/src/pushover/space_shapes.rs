@@ -96,6 +96,11 @@ impl<'a> SpaceShape<'a> {
                 member: MemberPlace::InSpace(place),
                 end,
                 ..
+            }
+            | SpringPlace::Surface {
+                member: MemberPlace::InSpace(place),
+                end,
+                ..
             } => {
                 let numbers = self.numbered(ends(place))?;
                 let (number, sign) = match end {

@@ -64,6 +64,24 @@ fn fibres<'a>(
 ) -> String {
     let ends = |fibres: &ColumnFibres| fibres.at_ends.into_iter().filter(|stands| *stands).count();
     let count: usize = all.map(ends).sum();
+    if let Some(corners) = first.corners() {
+        let largest = |least: [f64; 2], corner: &[f64; 2]| {
+            if corner[1] > least[1] { *corner } else { least }
+        };
+        let [force, moment] = corners.iter().fold([0.0; 2], largest);
+        let ends = [corners.first(), corners.last()];
+        let [compression, tension] = ends.map(|end| end.map_or(0.0, |end| end[0]));
+        return format!(
+            "surfaces of axial force and moment at {} of columns; {first_of}: {} over {}, {} of compression to {} of tension, up to {} under {}",
+            counted(count, "end"),
+            counted(corners.len(), "corner"),
+            HEIGHT.text(first.length, 3),
+            FORCE.text(-compression, 0),
+            FORCE.text(tension, 0),
+            MOMENT.text(moment, 1),
+            FORCE.text(-force, 0),
+        );
+    }
     let ([concrete, steel], layers) =
         first
             .fibres

@@ -177,12 +177,40 @@ law = "kelvin-no-tension"
 stiffness = "400 MN/m"
 "#;
 
+const ON_SURFACES: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "S"
+storeys = 2
+storey_height = "3 m"
+spans = ["4 m"]
+column = { width = "400 mm", depth = "400 mm", concrete = "C30", steel = "HRB400", bars = "8 d20" }
+beam = { EI = "100 MN.m2" }
+floor_mass = "40 t"
+axial = "flexible"
+elastic_modulus = "30 GPa"
+gravity = true
+hinges = { rule = "surface", length = "0.3 m", post_yield = 0.02 }
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["S", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
     let all = [
         ("walls", WALLED),
         ("fibres", FIBRED),
         ("wall of fibres", FIBRED_WALL),
+        ("surfaces", ON_SURFACES),
         ("lifting", LIFTING),
         ("fibres in space", FIBRED_IN_SPACE),
         ("panels", PANELLED),

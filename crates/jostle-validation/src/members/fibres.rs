@@ -1,7 +1,8 @@
 //! Ends of columns made of fibres, against fibres integrated by other programs.
 
 use jostle::hysteresis::HysteresisMemory;
-use jostle::{Fibre, Hinges};
+use jostle::pushover::{PushDirection, PushSettings, pushover};
+use jostle::{Fibre, Hinges, System};
 use serde_json::Value;
 
 use super::files::GRAVITY;
@@ -18,6 +19,17 @@ const PORTAL: (&str, &str) = (
     "members/e2_fibre_portal_overturning",
     include_str!("../../data/members/e2_fibre_portal_overturning.json"),
 );
+
+const WALL: (&str, &str) = (
+    "members/e4_fibre_wall",
+    include_str!("../../data/members/e4_fibre_wall.json"),
+);
+
+/// Layers over the length of the wall; the curve is straight between its corners.
+const LAYERS: usize = 200;
+
+/// Distance of that many layers from the integral.
+const OF_LAYERS: f64 = 1e-3;
 
 /// The parabola of concrete is a polygon here.
 pub(super) const POLYGON: f64 = 2e-4;
@@ -36,7 +48,90 @@ pub(super) fn rows() -> Vec<Row> {
             rows.extend(shaken(name, &case, tolerance));
         }
     }
+    rows.push(pushed_over(WALL.0, &document(WALL.1)));
     rows
+}
+
+/// A wall whose foot is a section of fibres, pushed over under its weight.
+fn pushed_over(name: &str, case: &Value) -> Row {
+    let input = model(&wall(&case["input"]));
+    let system = System::assemble(&input.model).expect("a sound model");
+    let settings = PushSettings {
+        direction: PushDirection::Right,
+        drift: 0.01,
+        ..PushSettings::default()
+    };
+    let pushed = pushover(&system.buildings[0], settings).expect("it bears");
+    let bears = |roof: f64| {
+        let pair = pushed.points.windows(2).find(|pair| pair[1].roof >= roof);
+        pair.map_or(f64::NAN, |pair| {
+            let share = (roof - pair[0].roof) / (pair[1].roof - pair[0].roof);
+            pair[0].base_shear + share * (pair[1].base_shear - pair[0].base_shear)
+        })
+    };
+    let points = list(case, "/static/points");
+    let points = points
+        .iter()
+        .map(|point| ["roof_m", "V_n"].map(|key| point[key].as_f64().expect("a number")));
+    let points: Vec<[f64; 2]> = points.collect();
+    let expected: Vec<f64> = points.iter().map(|point| point[1]).collect();
+    let got: Vec<f64> = points.iter().map(|point| bears(point[0])).collect();
+    let what = "base shear of a wall that is pushed over [N]";
+    Row::worst_of(name, what, &expected, &got, OF_LAYERS)
+}
+
+/// The model file of the wall.
+fn wall(input: &Value) -> String {
+    let of = |key: &str| number(input, key);
+    format!(
+        r#"motion = {{ record = "el-centro-1940-ns" }}
+[[building]]
+name = "P"
+kind = "frame"
+storeys = 1
+storey_height = {height:?}
+spans = []
+density = 0
+elastic_modulus = {modulus:?}
+floor_mass = {mass:?}
+floor_load = {load:?}
+gravity = true
+p_delta = false
+column_segments = 1
+axial = {{ columns = "flexible", beams = "rigid" }}
+damping = {{ alpha = 0.5, beta = 0 }}
+column = {{ width = 0.4, depth = 0.4 }}
+[[building.wall]]
+line = 1
+length = {length:?}
+thickness = {thickness:?}
+shear = "rigid"
+concrete = {strength:?}
+steel = {yields:?}
+cover = {cover:?}
+bars = {{ edges = "{of_edge} d{edge}", edge_length = {edge_length:?}, web = "{of_web} d{web}" }}
+hinge = {{ rule = "fibre", length = {over:?}, fibres = {LAYERS}, peak_strain = {peak:?}, residual = {residual:?}, ultimate_strain = {ultimate:?}, hardening = {hardening:?} }}
+"#,
+        height = of("/height_m"),
+        modulus = of("/E"),
+        mass = of("/floor_mass_kg"),
+        load = of("/floor_load_n"),
+        length = of("/length_m"),
+        thickness = of("/thickness_m"),
+        strength = of("/concrete/fc"),
+        yields = of("/steel/fy"),
+        cover = of("/cover_m"),
+        of_edge = of("/edges/bars"),
+        edge = 1e3 * of("/edges/diameter_m"),
+        edge_length = of("/edges/length_m"),
+        of_web = of("/web/bars"),
+        web = 1e3 * of("/web/diameter_m"),
+        over = of("/hinge_length_m"),
+        peak = of("/concrete/ec0"),
+        residual = of("/concrete/residual"),
+        ultimate = of("/concrete/ecu"),
+        hardening = of("/steel/b"),
+    )
 }
 
 /// The fibres of the first column of a file.

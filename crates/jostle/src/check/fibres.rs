@@ -27,6 +27,7 @@ pub(super) fn check_fibres(faults: &mut Faults, path: &str, fibres: &ColumnFibre
             }
             FibreMaterial::Cover => "needs concrete that no ties confine".into(),
             FibreMaterial::Bar => "needs bars".into(),
+            FibreMaterial::Section => "needs fibres: a surface has no strains of materials".into(),
         });
     }
     let finite = fibres.fibres.iter().flat_map(|fibre| fibre.at);

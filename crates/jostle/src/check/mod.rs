@@ -154,7 +154,22 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             fibres::check_weight(faults, &format!("{path}.hinges"), building);
         }
     }
-    if let Structure::Frame(frame) = &building.structure {
+    let of_plan = format!("{path}.frame");
+    let frames: Vec<(String, &Frame)> = match &building.structure {
+        Structure::Frame(frame) => vec![(path.to_owned(), frame)],
+        Structure::Tiers(tiers) => {
+            let frames: Vec<_> = each(&tiers.frames, &of_plan).collect();
+            for (field, own) in &frames {
+                if !own.hinges.fibres.is_empty() {
+                    fibres::check_weight(faults, &format!("{field}.hinges"), building);
+                }
+            }
+            let frames = frames.into_iter();
+            frames.map(|(field, own)| (field, &own.frame)).collect()
+        }
+        _ => Vec::new(),
+    };
+    for (path, frame) in frames {
         for (field, wall) in each(&frame.walls, &format!("{path}.wall")) {
             if !wall.fibres.is_empty() {
                 fibres::check_weight(faults, &format!("{field}.hinge"), building);

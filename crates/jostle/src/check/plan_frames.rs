@@ -1,6 +1,6 @@
 //! Faults of plane frames at lines of a plan.
 
-use super::{Faults, check_base, check_frame_hinges, check_members_of, each};
+use super::{Faults, check_base, check_frame_hinges, check_members_of};
 use crate::model::{Building, PlanFrame, SharedColumn, TierStorey, Tiers};
 
 /// Storey heights of a frame and of its building may differ by rounding only \[m\].
@@ -78,11 +78,6 @@ fn check_one(faults: &mut Faults, at: &str, plan_frame: &PlanFrame, tiers: &Tier
     faults.require(!yields, format!("{at}.base"), || {
         "cannot yield under a frame in a plan yet; leave its hinges out".into()
     });
-    for (field, wall) in each(&frame.walls, &format!("{at}.wall")) {
-        faults.require(wall.fibres.is_empty(), format!("{field}.hinge"), || {
-            "cannot have fibres in a frame in a plan yet; take another rule with its moments, or a frame without a plan".into()
-        });
-    }
     faults.require(!plan_frame.base.uplift, format!("{at}.base.uplift"), || {
         "is not possible under a frame in a plan yet; leave it out".into()
     });
@@ -162,6 +157,16 @@ fn check_columns(faults: &mut Faults, path: &str, tiers: &Tiers) {
             format!(
                 "puts column \"{name}\" at ({:.3} m, {:.3} m) on the site, but frame \"{}\" puts it at ({:.3} m, {:.3} m); correct at, direction or spans, or give it another name",
                 q[0], q[1], a.name, p[0], p[1]
+            )
+        });
+        let follows = lines.iter().any(|[frame, line]| {
+            let fibres = tiers.frames[*frame].hinges.fibres.keys();
+            fibres.into_iter().any(|[_, own]| own == line)
+        });
+        faults.require(!follows, at.clone(), || {
+            format!(
+                "shares column \"{name}\" with frame \"{}\": its axial force would count in one of them only, and hinges follow it; describe the building as a space frame, or take a rule with moments",
+                a.name
             )
         });
         let storeys = a

@@ -38,9 +38,11 @@ mod pinched;
 mod rule;
 mod sliders;
 mod stages_in_plan;
+mod surface;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
 pub use buckling::{Buckling, BucklingBrace};
+pub(crate) use circular::PlanAnswer;
 pub use circular::{CircularLaw, ForceRow};
 pub use concrete::ConcreteFall;
 pub use failing::FallingBranch;
@@ -50,3 +52,5 @@ pub use menegotto_pinto::MenegottoPinto;
 pub use pendulums::SlidingStage;
 pub use pinched::{GREATEST_DAMAGE, Pinching, energy_to_yield};
 pub use rule::{DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule};
+pub(crate) use surface::{Flow, Surface};
+pub use surface::{KeptCorners, MOST_CORNERS};

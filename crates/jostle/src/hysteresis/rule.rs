@@ -10,6 +10,7 @@ use super::memory::{Branch, HysteresisMemory, Response, Stage};
 use super::menegotto_pinto::{self, MenegottoPinto};
 use super::pendulums::{self, SlidingStage};
 use super::pinched::{self, Pinching};
+use super::surface::KeptCorners;
 use super::{compression, degrading, oriented, sliders};
 
 /// Exponent of the unloading stiffness of Takeda's rule after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
@@ -76,6 +77,14 @@ pub enum HysteresisRule {
         /// Its direction.
         row: ForceRow,
     },
+    /// A row of a section whose axial force and moment are bounded by a surface; [`Hysteresis::surface`] makes all three. On its own
+    /// a row is elastic.
+    Surface {
+        /// Which row.
+        row: ForceRow,
+        /// Corners of the surface that it keeps.
+        corners: KeptCorners,
+    },
 }
 
 impl HysteresisRule {
@@ -129,6 +138,7 @@ impl HysteresisRule {
             | Self::Concrete(_)
             | Self::MenegottoPinto(_)
             | Self::Pendulums(_)
+            | Self::Surface { .. }
             | Self::InPlan { .. } => false,
         }
     }
@@ -152,6 +162,7 @@ impl HysteresisRule {
             Self::Concrete(_) => "concrete",
             Self::MenegottoPinto(_) => "menegotto-pinto",
             Self::Pendulums(_) => "pendulums",
+            Self::Surface { .. } => "surface",
             Self::InPlan { law, .. } => match law {
                 CircularLaw::Slider | CircularLaw::Friction { .. } | CircularLaw::Pendulums(_) => {
                     "friction in plan"
@@ -370,6 +381,10 @@ impl Hysteresis {
             | HysteresisRule::InPlan {
                 row: ForceRow::Between,
                 ..
+            }
+            | HysteresisRule::Surface {
+                row: ForceRow::Between,
+                ..
             } => 0.0,
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
@@ -385,6 +400,7 @@ impl Hysteresis {
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
+            | HysteresisRule::Surface { .. }
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
         }
     }
@@ -488,6 +504,15 @@ impl Hysteresis {
                 pendulums::respond(&self.backbone, &stages, memory, deformation)
             }
             HysteresisRule::InPlan { row, .. } => self.on_a_line(row, memory, deformation),
+            HysteresisRule::Surface { .. } => {
+                let force = memory.force + self.initial_tangent() * change;
+                Response {
+                    force,
+                    tangent: self.initial_tangent(),
+                    work: 0.5 * (memory.force + force) * change,
+                    memory: *memory,
+                }
+            }
         };
         let force = response.force;
         response.memory.stand_at(deformation, force, side);
@@ -558,6 +583,7 @@ impl Hysteresis {
             | HysteresisRule::Concrete(_)
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
+            | HysteresisRule::Surface { .. }
             | HysteresisRule::InPlan { .. } => {
                 self.on_the_line(memory, deformation).unwrap_or_else(|| {
                     let response = self.respond(memory, deformation);
@@ -599,6 +625,7 @@ impl Hysteresis {
         match self.rule {
             HysteresisRule::Sliding { .. }
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::Surface { .. }
             | HysteresisRule::InPlan { .. } => {
                 let side = Side::from_change(deformation - memory.deformation);
                 memory.stand_at(deformation, force, side);
@@ -659,6 +686,10 @@ impl Hysteresis {
             HysteresisRule::InPlan {
                 row: ForceRow::Between,
                 ..
+            }
+            | HysteresisRule::Surface {
+                row: ForceRow::Between,
+                ..
             } => 0.0,
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
@@ -669,6 +700,7 @@ impl Hysteresis {
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
+            | HysteresisRule::Surface { .. }
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
@@ -748,7 +780,9 @@ impl Hysteresis {
             HysteresisRule::Pendulums(stages) => {
                 pendulums::next_corner(&self.backbone, &stages, memory, towards)
             }
-            HysteresisRule::InPlan { .. } => towards.sign() * f64::INFINITY,
+            HysteresisRule::InPlan { .. } | HysteresisRule::Surface { .. } => {
+                towards.sign() * f64::INFINITY
+            }
         }
     }
 
@@ -779,6 +813,13 @@ impl Hysteresis {
             HysteresisRule::Elastic | HysteresisRule::Stop { .. } | HysteresisRule::InPlan { .. }
         ) {
             return Stage::Uncracked;
+        }
+        if let HysteresisRule::Surface { row, .. } = self.rule {
+            return if row != ForceRow::Between && self.has_flowed(memory) {
+                Stage::Yielded
+            } else {
+                Stage::Uncracked
+            };
         }
         if let HysteresisRule::Concrete(_) = self.rule {
             // It begins to crush at its strength.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::PlanPoint;
-use crate::hysteresis::{Hysteresis, Side};
+use crate::hysteresis::{Hysteresis, Side, SpringFault, Surface};
 
 /// Lengths at the ends of a column in which fibres stretch and bend together, so that what a section can bear follows its axial force
 /// and, in space, its moment about the other axis: a hinge without length that also stretches.
@@ -43,6 +43,62 @@ pub struct ColumnFibres {
     pub limits: BTreeMap<FibreLimit, f64>,
 }
 
+impl ColumnFibres {
+    /// Ends whose axial force and moment are bounded by a surface instead: their fibres are the three rows of
+    /// [`Hysteresis::surface`], of which two stand at its radius from the axis.
+    ///
+    /// ```
+    /// use jostle::ColumnFibres;
+    ///
+    /// // EA and EI over a length of 0.4 m; axial forces, positive in tension, and moments.
+    /// let stiffness = [7.5e9 / 0.4, 156e6 / 0.4];
+    /// let corners = [[-6e6, 0.0], [-2e6, 0.5e6], [1.2e6, 0.0]];
+    /// let own = ColumnFibres::on_surface(0.4, [true, true], stiffness, &corners, 0.01).expect("sound");
+    /// assert!(own.is_surface());
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Hysteresis::surface`].
+    pub fn on_surface(
+        length: f64,
+        at_ends: [bool; 2],
+        stiffness: [f64; 2],
+        corners: &[[f64; 2]],
+        post_yield: f64,
+    ) -> Result<Self, Vec<SpringFault>> {
+        let (rows, radius) = Hysteresis::surface(stiffness, corners, post_yield)?;
+        let places = [radius, -radius, 0.0];
+        let fibre = |(spring, at)| Fibre {
+            at: [at, 0.0],
+            spring,
+            material: FibreMaterial::Section,
+        };
+        Ok(Self {
+            length,
+            at_ends,
+            fibres: rows.into_iter().zip(places).map(fibre).collect(),
+            limits: BTreeMap::new(),
+        })
+    }
+
+    /// Axial forces, positive in tension, and moments at the corners of its surface; `None` for fibres \[N, N·m\].
+    #[must_use]
+    pub fn corners(&self) -> Option<Vec<[f64; 2]>> {
+        let [x, y, between] = &self.fibres[..] else {
+            return None;
+        };
+        let rows = [x, y, between].map(|fibre| &fibre.spring);
+        Some(Surface::of(rows)?.stated(x.at[0]))
+    }
+
+    /// Whether a surface bounds its axial force and moment.
+    #[must_use]
+    pub fn is_surface(&self) -> bool {
+        let first = self.fibres.first();
+        first.is_some_and(|first| first.spring.is_on_surface())
+    }
+}
+
 /// A part of the concrete, or bars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {
@@ -64,6 +120,8 @@ pub enum FibreMaterial {
     Core,
     /// Bars.
     Bar,
+    /// The whole section, which yields on a surface.
+    Section,
 }
 
 /// What happens to a section at a strain of its fibres.
@@ -115,7 +173,7 @@ impl FibreLimit {
     pub const fn side(self) -> Side {
         match self.material() {
             FibreMaterial::Bar => Side::Positive,
-            FibreMaterial::Cover | FibreMaterial::Core => Side::Negative,
+            FibreMaterial::Cover | FibreMaterial::Core | FibreMaterial::Section => Side::Negative,
         }
     }
 }

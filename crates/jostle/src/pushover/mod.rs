@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory, HysteresisRule, Side, Stage};
 use crate::statics::{EquilibriumPath, PathError, STANDARD_GRAVITY};
-use crate::structure::{InnerLink, StepEquations};
+use crate::structure::{InnerLink, StepEquations, YieldingSpring};
 use crate::system::BuildingSystem;
 
 /// Direction of the load.
@@ -328,7 +328,8 @@ pub enum CannotPush {
 /// [`CannotPush`].
 pub fn pushover(building: &BuildingSystem, settings: PushSettings) -> Result<Pushover, CannotPush> {
     let equations = &building.equations;
-    if equations.single_springs < equations.springs.len() {
+    let circular = |spring: &YieldingSpring| spring.hysteresis.circular().is_some();
+    if equations.springs.iter().any(circular) {
         return Err(CannotPush::BearingsInPlan);
     }
     if let Some(alone) = building.without_neighbours() {
@@ -519,6 +520,9 @@ impl<'a, E: StepEquations> Push<'a, E> {
     /// A spring on its corner counts as beyond it.
     fn stage_reached(&self, spring: usize, memory: &HysteresisMemory) -> Stage {
         let hysteresis = &self.springs[spring];
+        if self.walk.is_on_surface(spring) {
+            return Stage::Yielded;
+        }
         if self.falls(spring) {
             return hysteresis.stage(memory);
         }

@@ -74,6 +74,7 @@ pub(super) fn isolation_summary(
             | SpringPlace::PlanStorey { .. }
             | SpringPlace::Element { .. }
             | SpringPlace::Fibre { .. }
+            | SpringPlace::Surface { .. }
             | SpringPlace::Sliding { .. }
             | SpringPlace::Footing { .. }
             | SpringPlace::Diagonal { .. } => {}

@@ -67,7 +67,11 @@ pub(super) fn sections_of(
         });
         let limits = limits.collect();
         FibreSummary {
-            name: format!("{}.{section}", building.name),
+            name: format!(
+                "{}.{}",
+                building.name,
+                building.discretization.name_of_section(section)
+            ),
             axial_max_n: axial[0],
             axial_min_n: axial[1],
             moment_max_n_m: moment[0],
@@ -118,7 +122,9 @@ impl Strains {
                 greater(&mut strains.concrete, fibre.deformation_min);
                 strains.crushed_s = earlier(strains.crushed_s, fibre.yielded_s);
             } else {
-                greater(&mut strains.steel, fibre.deformation_max);
+                if !section.is_surface() {
+                    greater(&mut strains.steel, fibre.deformation_max);
+                }
                 strains.yielded_s = earlier(strains.yielded_s, fibre.yielded_s);
             }
         }

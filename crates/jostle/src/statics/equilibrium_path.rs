@@ -1,7 +1,7 @@
 //! Equilibrium path of a building from corner to corner, under a growing load or a prescribed displacement.
 
 use super::Settled;
-use crate::hysteresis::{Hysteresis, HysteresisMemory, Side};
+use crate::hysteresis::{Flow, Hysteresis, HysteresisMemory, Side, Surface};
 use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::stiffness::DirectStiffness;
 use crate::structure::{AssembledBuilding, StepEquations, YieldingSpring};
@@ -57,7 +57,54 @@ pub struct EquilibriumPath<E: StepEquations = RiccatiSweep> {
     rates: Vec<f64>,
     load_rate: f64,
     spring_rates: Vec<f64>,
+    /// Sections that yield on a surface.
+    surfaces: Vec<PathSurface>,
     corners: usize,
+}
+
+/// A section that yields on a surface.
+#[derive(Clone, Debug)]
+struct PathSurface {
+    /// The first of its three rows among the springs.
+    first: usize,
+    law: Surface,
+    /// How it gives.
+    flow: Flow,
+}
+
+impl PathSurface {
+    /// All of a list of springs.
+    fn all(springs: &[PathSpring]) -> Vec<Self> {
+        let rows = springs.windows(3).enumerate();
+        let laws = rows.filter_map(|(first, rows)| {
+            let rows = [0, 1, 2].map(|row| &rows[row].hysteresis);
+            let law = Surface::of(rows).filter(|_| rows[0].starts_surface())?;
+            Some(Self {
+                first,
+                law,
+                flow: Flow::Elastic,
+            })
+        });
+        laws.collect()
+    }
+
+    /// States of its points.
+    fn points<'a>(&self, memories: &'a [HysteresisMemory]) -> [&'a HysteresisMemory; 2] {
+        [&memories[self.first], &memories[self.first + 1]]
+    }
+
+    /// What its points have of a list of all springs.
+    fn of(&self, values: &[f64]) -> [f64; 2] {
+        [values[self.first], values[self.first + 1]]
+    }
+
+    /// Writes its slopes into a list of all springs.
+    fn lay_slopes(&self, ahead: &mut [[f64; 2]]) {
+        let rows = ahead[self.first..].iter_mut();
+        for (ahead, tangent) in rows.zip(self.law.tangents(self.flow)) {
+            *ahead = [tangent; 2];
+        }
+    }
 }
 
 /// A spring that yields.
@@ -155,7 +202,6 @@ impl<E: StepEquations> EquilibriumPath<E> {
         memories.resize(springs.len(), HysteresisMemory::default());
         let count = springs.len();
         Self {
-            springs,
             equations,
             factor: E::Factor::default(),
             scratch: E::Scratch::default(),
@@ -170,8 +216,18 @@ impl<E: StepEquations> EquilibriumPath<E> {
             sides: vec![Side::Positive; count],
             load_rate: 0.0,
             spring_rates: vec![0.0; count],
+            surfaces: PathSurface::all(&springs),
+            springs,
             corners: 0,
         }
+    }
+
+    /// Whether a spring is a row of a section that stands on its surface.
+    #[must_use]
+    pub fn is_on_surface(&self, spring: usize) -> bool {
+        let mut surfaces = self.surfaces.iter();
+        let surface = surfaces.find(|surface| surface.first == spring);
+        surface.is_some_and(|surface| surface.law.is_reached(surface.points(&self.memories)))
     }
 
     /// λ now.
@@ -212,7 +268,10 @@ impl<E: StepEquations> EquilibriumPath<E> {
         for ((spring, memory), ahead) in springs.zip(&mut self.ahead) {
             *ahead = Side::BOTH.map(|side| slope_ahead(&spring.hysteresis, memory, side));
         }
-        let most = QUICK_CHOICES + 4 * self.sides.len() + 16;
+        for surface in &self.surfaces {
+            surface.lay_slopes(&mut self.ahead);
+        }
+        let most = QUICK_CHOICES + 4 * self.sides.len() + 16 * (1 + self.surfaces.len());
         let mut stiffened = false;
         for choice in 0..most {
             if let Err(problem) = self.factorize() {
@@ -227,6 +286,10 @@ impl<E: StepEquations> EquilibriumPath<E> {
                     } else {
                         Side::Negative
                     };
+                }
+                for surface in &mut self.surfaces {
+                    surface.flow = Flow::Elastic;
+                    surface.lay_slopes(&mut self.ahead);
                 }
                 self.factorize()?;
             }
@@ -256,6 +319,23 @@ impl<E: StepEquations> EquilibriumPath<E> {
                             break;
                         }
                     }
+                }
+            }
+            for surface in &mut self.surfaces {
+                let one_by_one = stiffened || choice > QUICK_CHOICES;
+                if one_by_one && !settled {
+                    break;
+                }
+                let rates = surface.of(&self.spring_rates);
+                let moves = rates.iter().any(|rate| rate.abs() > STILL * fastest);
+                let flow = match moves {
+                    true => surface.law.flow(surface.points(&self.memories), rates),
+                    false => surface.flow,
+                };
+                if flow != surface.flow {
+                    surface.flow = flow;
+                    surface.lay_slopes(&mut self.ahead);
+                    settled = false;
                 }
             }
             if settled {
@@ -299,10 +379,28 @@ impl<E: StepEquations> EquilibriumPath<E> {
                 length = length.min(((corner - memory.deformation()) / rate).max(0.0));
             }
         }
+        for surface in &self.surfaces {
+            let rates = surface.of(&self.spring_rates);
+            let points = surface.points(&self.memories);
+            length = length.min(surface.law.time_to_edge(points, rates, surface.flow));
+        }
         let mut corners = Vec::new();
+        for surface in &self.surfaces {
+            let rates = surface.of(&self.spring_rates);
+            let points = surface.points(&self.memories);
+            if length >= surface.law.time_to_edge(points, rates, surface.flow) {
+                corners.push(surface.first);
+            }
+            let to = [0, 1].map(|point| points[point].deformation() + length * rates[point]);
+            let force = surface.law.answer(points, to).force;
+            for (point, row) in (surface.first..).take(2).enumerate() {
+                let law = &self.springs[row].hysteresis;
+                law.commit(&mut self.memories[row], to[point], force[point]);
+            }
+        }
         let springs = self.springs.iter().zip(&mut self.memories);
         for (index, ((spring, memory), rate)) in springs.zip(&self.spring_rates).enumerate() {
-            if *rate == 0.0 {
+            if *rate == 0.0 || spring.hysteresis.is_on_surface() {
                 continue;
             }
             let side = Side::from_change(*rate);
@@ -319,6 +417,7 @@ impl<E: StepEquations> EquilibriumPath<E> {
             *value += length * rate;
         }
         self.load += length * self.load_rate;
+        corners.sort_unstable();
         self.corners += corners.len();
         let bound = 1000 + 100 * self.memories.len();
         if self.corners > bound {

@@ -230,8 +230,13 @@ fn hung_on_nodes(
             }
         }
     }
-    for (spring, memory) in stick_model.single_springs().zip(&settled.springs) {
-        for ((node, component), share) in element::places(&spring.row) {
+    let single = stick_model.single_springs().zip(&settled.springs);
+    let single = single.map(|(spring, memory)| (spring.row, memory));
+    let surfaces = stick_model.surface_rows().rev();
+    let surfaces = surfaces.zip(settled.springs.iter().rev());
+    let surfaces = surfaces.map(|(element, memory)| (element.row.clone(), memory));
+    for (row, memory) in single.chain(surfaces) {
+        for ((node, component), share) in element::places(&row) {
             if component == Y {
                 hung[node] += share * memory.force();
             }

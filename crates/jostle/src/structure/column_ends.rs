@@ -9,23 +9,28 @@ use super::element::{THETA, Y, over_nodes};
 use super::member_forces::MemberPlace;
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, StickModel, YieldingElement};
+use crate::hysteresis::HysteresisRule;
 use crate::linear::Row;
 use crate::model::{ColumnFibres, Fibre, FibreLimit, ProportionalDamping};
 
 /// An end of a column that is made of fibres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FibreSection {
+    /// Index of its frame in [`Discretization::frames`]; `None` where the building is one frame, or a space frame.
+    pub frame: Option<usize>,
     /// Its column.
     pub member: MemberPlace,
-    /// Which end.
+    /// Which end; the upper side of a point is as a foot.
     pub end: MemberEnd,
+    /// Instead of an end, the point between floors where it is struck, from 1 at the lowest one.
+    pub point: Option<usize>,
     /// Length over which the fibres share a deformation \[m\].
     pub length: f64,
     /// Its fibres.
     pub fibres: Arc<[Fibre]>,
     /// Strains that are judged \[–\].
     pub limits: BTreeMap<FibreLimit, f64>,
-    /// Its fibres among [`StickModel::yielding`]; see [`Discretization::springs_of_section`].
+    /// Its fibres among [`StickModel::yielding`], or its rows among those of [`StickModel::surfaces`]; see [`Discretization::springs_of_section`].
     pub elements: Range<usize>,
     /// Elongation of its axis over displacements of nodes.
     pub elongation: Row,
@@ -35,20 +40,45 @@ pub struct FibreSection {
 }
 
 impl FibreSection {
-    /// Places of its fibres.
+    /// Whether it yields on a surface instead.
+    #[must_use]
+    pub fn is_surface(&self) -> bool {
+        let first = self.fibres.first();
+        first.is_some_and(|first| first.spring.is_on_surface())
+    }
+
+    /// Places of its fibres, or of its rows.
     pub(super) fn places(&self) -> impl Iterator<Item = SpringPlace> + '_ {
-        (0..self.fibres.len()).map(|fibre| SpringPlace::Fibre {
-            member: self.member,
-            end: self.end,
-            fibre: fibre + 1,
+        let (member, end, point) = (self.member, self.end, self.point);
+        let frame = self.frame.map(|frame| frame + 1);
+        let fibres = self.fibres.iter().enumerate();
+        fibres.map(move |(number, fibre)| match fibre.spring.rule() {
+            HysteresisRule::Surface { row, .. } => SpringPlace::Surface {
+                frame,
+                member,
+                end,
+                point,
+                row,
+            },
+            _ => SpringPlace::Fibre {
+                frame,
+                member,
+                end,
+                point,
+                fibre: number + 1,
+            },
         })
     }
 }
 
 impl std::fmt::Display for FibreSection {
-    /// Its name within the building, such as `column.1.2.foot`, or `column.1.1.2.foot` in a space frame.
+    /// Its name within the building, such as `column.1.2.foot`, or `column.1.1.2.foot` in a space frame; `column.1.2.struck1` where it is
+    /// struck.
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(formatter, "{}.{}", self.member, self.end.of_column())
+        match self.point {
+            Some(point) => write!(formatter, "{}.struck{point}", self.member),
+            None => write!(formatter, "{}.{}", self.member, self.end.of_column()),
+        }
     }
 }
 
@@ -83,7 +113,8 @@ impl StickModel {
         (node, section)
     }
 
-    /// Adds fibres over an elongation and the rotations beside it: each is a spring over v + Σ x θ.
+    /// Adds fibres over an elongation and the rotations beside it: each is a spring over v + Σ x θ. Of a section that yields on a surface
+    /// the last row is the difference of the others.
     pub(super) fn add_section(
         &mut self,
         fibres: &ColumnFibres,
@@ -92,8 +123,7 @@ impl StickModel {
         elongation: Row,
         rotations: Vec<Row>,
     ) -> FibreSection {
-        let first = self.yielding.len();
-        self.yielding.extend(fibres.fibres.iter().map(|fibre| {
+        let springs = fibres.fibres.iter().map(|fibre| {
             let mut row = elongation.clone();
             for (rotation, at) in rotations.iter().zip(fibre.at) {
                 row.add_times(at, rotation);
@@ -103,14 +133,28 @@ impl StickModel {
                 hysteresis: fibre.spring,
                 proportional_damping: ProportionalDamping::None,
             }
-        }));
+        });
+        let springs: Vec<YieldingElement> = springs.collect();
+        let (first, list) = match <[YieldingElement; 3]>::try_from(springs) {
+            Ok([x, y, mut between]) if fibres.is_surface() => {
+                between.row = x.row.clone();
+                between.row.add_times(-1.0, &y.row);
+                self.surfaces.push([x, y, between]);
+                (3 * (self.surfaces.len() - 1), Vec::new())
+            }
+            Ok(three) => (self.yielding.len(), three.to_vec()),
+            Err(list) => (self.yielding.len(), list),
+        };
+        self.yielding.extend(list);
         FibreSection {
+            frame: None,
             member,
             end,
+            point: None,
             length: fibres.length,
             fibres: fibres.fibres.clone(),
             limits: fibres.limits.clone(),
-            elements: first..self.yielding.len(),
+            elements: first..first + fibres.fibres.len(),
             elongation,
             rotations,
         }
@@ -118,6 +162,23 @@ impl StickModel {
 }
 
 impl Discretization {
+    /// Name of a section of fibres within the building, with that of its frame where several stand in a plan.
+    #[must_use]
+    pub fn name_of_section(&self, section: &FibreSection) -> String {
+        format!("{}{section}", self.frame_of_section(section))
+    }
+
+    /// Name of the column of a section of fibres, likewise.
+    #[must_use]
+    pub fn column_of_section(&self, section: &FibreSection) -> String {
+        format!("{}{}", self.frame_of_section(section), section.member)
+    }
+
+    fn frame_of_section(&self, section: &FibreSection) -> String {
+        let name = section.frame.and_then(|frame| self.frames.get(frame));
+        name.map_or_else(String::new, |name| format!("{name}."))
+    }
+
     /// Springs of a section of fibres among [`Equations::springs`](super::Equations::springs).
     #[must_use]
     pub fn springs_of_section(&self, section: &FibreSection) -> Range<usize> {
@@ -130,7 +191,10 @@ impl Discretization {
             .springs
             .iter()
             .filter(|spring| spring.hysteresis.is_some());
-        let before = hinges.count() + storeys.count();
+        let mut before = hinges.count() + storeys.count();
+        if section.is_surface() {
+            before += sticks.yielding.len() + sticks.rows_of_bearings();
+        }
         before + section.elements.start..before + section.elements.end
     }
 }

@@ -122,6 +122,13 @@ impl Discretization {
         if let Some(asked) = building.yielding_damping {
             discretization.damp_what_yields(asked);
         }
+        // They stand last among what yields.
+        let surfaces = discretization.sections.iter();
+        let surfaces = surfaces.filter(|section| section.is_surface());
+        let places = surfaces.flat_map(FibreSection::places);
+        discretization
+            .spring_places
+            .extend(places.collect::<Vec<_>>());
         discretization
     }
 
@@ -547,7 +554,9 @@ pub(super) fn discretize_frame(
                     let place = [storey + 1, line + 1];
                     let (beyond, section) = stick_model.add_fibres(*node, fibres, place, end);
                     *node = beyond;
-                    row_places.extend(section.places());
+                    if !section.is_surface() {
+                        row_places.extend(section.places());
+                    }
                     discretization.sections.push(section);
                 }
                 if let Some(hysteresis) = hinge {
@@ -595,7 +604,21 @@ pub(super) fn discretize_frame(
             let elements = [first, stick_model.members.len() - 1];
             // A push between the floors bends the column most where it acts.
             for (point, at) in cuts_at(&cuts, &pushed).enumerate() {
-                let Some(hysteresis) = hinge else { break };
+                let everywhere = fibres.filter(|own| wall.is_none() && own.at_ends == [true; 2]);
+                if let Some(fibres) = everywhere {
+                    let (place, end) = ([storey + 1, line + 1], MemberEnd::First);
+                    let (above, section) = stick_model.add_fibres(interior[at], fibres, place, end);
+                    stick_model.members[first + at + 1].ends[0] = above;
+                    let section = FibreSection {
+                        point: Some(point + 1),
+                        ..section
+                    };
+                    if !section.is_surface() {
+                        row_places.extend(section.places());
+                    }
+                    discretization.sections.push(section);
+                }
+                let Some(hysteresis) = hinge else { continue };
                 let above = stick_model.yielding(interior[at], *hysteresis, MemberEnd::First);
                 stick_model.members[first + at + 1].ends[0] = above;
                 let (line, storey) = (line + 1, storey + 1);

@@ -8,7 +8,7 @@ use crate::simd;
 use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
 use crate::structure::path::Path;
 use crate::structure::stick_elements;
-use crate::structure::{PlanMat, StickModel, Support};
+use crate::structure::{StickModel, Support};
 
 /// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
 ///
@@ -42,7 +42,7 @@ pub struct Equations {
     /// of every force in plan that is the same in every direction. They are not part of K + K′. Where stiffness-proportional damping
     /// acts on them with their initial stiffness, that stands in K, and its negative in K′.
     pub springs: Vec<YieldingSpring>,
-    /// Number of springs that yield by themselves; the rows of forces in plan follow them.
+    /// Number of springs that yield by themselves; the rows of forces in plan, then those of sections on a surface follow, three of each.
     pub single_springs: usize,
     /// Mass-proportional damping α \[1/s\].
     pub alpha: f64,
@@ -173,8 +173,8 @@ impl Equations {
             base_shear = sums.filter(|(_, sum)| *sum != 0.0).collect();
         }
         let springs = yielding_springs(stick_model, &path);
-        let in_plan = stick_model.plan_mat.iter().flat_map(PlanMat::forces);
-        let single_springs = springs.len() - 3 * in_plan.count();
+        let single_springs =
+            springs.len() - stick_model.rows_of_bearings() - 3 * stick_model.surfaces.len();
         let [stiffness, undamped, dashpots] =
             triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
         let weighs = vertical_mass.iter().zip(loads);
@@ -324,7 +324,7 @@ impl Equations {
     }
 }
 
-/// Springs that yield: those by themselves, then bearings in plan.
+/// Springs that yield: those by themselves, then bearings in plan, then sections on a surface.
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
     let foundation = stick_model.foundation.as_ref();
     let sway = foundation.and_then(|foundation| path.dof(foundation.node, X));
@@ -360,5 +360,12 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
             })
         })
     });
-    single.chain(bearings).collect()
+    let surfaces = stick_model.surface_rows().map(|element| YieldingSpring {
+        row: path.row(&stick_model.carried_row(&element.row)),
+        hysteresis: element.hysteresis,
+        damped_by_tangent: false,
+        // It neither slides nor stands on a foundation.
+        in_base_shear: 0.0,
+    });
+    single.chain(bearings).chain(surfaces).collect()
 }

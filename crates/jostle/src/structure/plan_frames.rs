@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::column_ends::FibreSection;
 use super::diagonals::FrameDiagonal;
 use super::discretization::{Discretization, discretize_frame};
 use super::element::{THETA, X, Y, index_of, over_nodes};
@@ -70,6 +71,7 @@ pub(super) fn add_frames(
         hinge_places.extend(hinges.into_iter().filter_map(in_frame));
         diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
         let first_node = sticks.nodes.len();
+        let before = [sticks.yielding.len(), 3 * sticks.surfaces.len()];
         let elements = sticks.append(discretized.stick_model, &place);
         let [along, across, _] = plan_frame.shares(plan_frame.at);
         let direction = [along, across];
@@ -85,6 +87,19 @@ pub(super) fn add_frames(
                 ..diagonal
             });
         discretization.diagonals.extend(diagonals);
+        let up = index_of((first_node, X));
+        let sections = discretized.sections.into_iter().map(|section| {
+            let before = before[usize::from(section.is_surface())];
+            let rotations = section.rotations.iter().map(|row| row.moved_up(up));
+            FibreSection {
+                frame: Some(index),
+                elements: before + section.elements.start..before + section.elements.end,
+                elongation: section.elongation.moved_up(up),
+                rotations: rotations.collect(),
+                ..section
+            }
+        });
+        discretization.sections.extend(sections);
         let walls = discretized
             .walls
             .into_iter()
@@ -253,6 +268,13 @@ impl StickModel {
             .extend(frame.yielding.into_iter().map(|mut yielding| {
                 yielding.row = yielding.row.moved_up(before);
                 yielding
+            }));
+        self.surfaces
+            .extend(frame.surfaces.into_iter().map(|mut rows| {
+                for element in &mut rows {
+                    element.row = element.row.moved_up(before);
+                }
+                rows
             }));
         if self.rocks() {
             for component in [Y, THETA] {

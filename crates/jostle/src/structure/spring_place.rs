@@ -121,12 +121,29 @@ pub enum SpringPlace {
     },
     /// In a section of fibres at an end of a column.
     Fibre {
+        /// Its frame, where several stand in a plan, from 1.
+        frame: Option<usize>,
         /// Its column.
         member: MemberPlace,
         /// Which end.
         end: MemberEnd,
+        /// Instead of an end, the point between floors where it is struck, from 1 at the lowest one.
+        point: Option<usize>,
         /// Its number in the section.
         fibre: usize,
+    },
+    /// A row of an end of a column that yields on a surface.
+    Surface {
+        /// Its frame, where several stand in a plan, from 1.
+        frame: Option<usize>,
+        /// Its column.
+        member: MemberPlace,
+        /// Which end.
+        end: MemberEnd,
+        /// Instead of an end, the point between floors where it is struck, from 1 at the lowest one.
+        point: Option<usize>,
+        /// Which row.
+        row: ForceRow,
     },
     /// Shear of a wall or a coupling beam of a frame, which is its sliding.
     Sliding {
@@ -231,6 +248,12 @@ impl SpringPlace {
                 Some(name) => format!("frame {name}, {}", Self::Beam { floor, bay, end }),
                 None => self.to_string(),
             },
+            Self::Fibre { frame, .. } | Self::Surface { frame, .. } => {
+                match frame.and_then(of_frame) {
+                    Some(name) => format!("frame {name}, {}", self.without_frame()),
+                    None => self.to_string(),
+                }
+            }
             Self::Sliding { frame, member } => match frame.and_then(of_frame) {
                 Some(name) => format!("frame {name}, {}", sliding_in_words(member)),
                 None => self.to_string(),
@@ -241,6 +264,14 @@ impl SpringPlace {
             },
             _ => self.to_string(),
         }
+    }
+
+    /// An end of a column without its frame.
+    fn without_frame(mut self) -> Self {
+        if let Self::Fibre { frame, .. } | Self::Surface { frame, .. } = &mut self {
+            *frame = None;
+        }
+        self
     }
 
     /// Places of hinges at an end of a member, in every plane in which it may bend.
@@ -283,6 +314,19 @@ impl SpringPlace {
                 frame: Some(frame),
                 member,
             }),
+            Self::Fibre {
+                member,
+                end,
+                point,
+                fibre,
+                ..
+            } => Some(Self::Fibre {
+                frame: Some(frame),
+                member,
+                end,
+                point,
+                fibre,
+            }),
             _ => None,
         }
     }
@@ -293,9 +337,11 @@ impl SpringPlace {
     #[must_use]
     pub fn is_damped_with_structure(&self) -> bool {
         match self {
-            Self::Base { .. } | Self::Footing { .. } | Self::Shear { .. } | Self::Fibre { .. } => {
-                false
-            }
+            Self::Base { .. }
+            | Self::Footing { .. }
+            | Self::Shear { .. }
+            | Self::Fibre { .. }
+            | Self::Surface { .. } => false,
             Self::Diagonal { place, .. } => place.kind == DiagonalKind::Brace,
             place => !place.is_isolation(),
         }
@@ -334,12 +380,15 @@ impl SpringPlace {
     }
 
     /// Whether it counts among the hinges of a building: what cracks and yields, without isolation, columns that fail in shear,
-    /// struts and foundations that lift off, and fibres, which are many in one section.
+    /// struts and foundations that lift off, and fibres and surfaces, which are several springs in one section.
     #[must_use]
     pub fn is_hinge(&self) -> bool {
         let strut =
             matches!(self, Self::Diagonal { place, .. } if place.kind == DiagonalKind::Infill);
-        let other = matches!(self, Self::Fibre { .. } | Self::Footing { .. });
+        let other = matches!(
+            self,
+            Self::Fibre { .. } | Self::Surface { .. } | Self::Footing { .. }
+        );
         !(self.is_isolation() || self.is_shear() || strut || other)
     }
 
@@ -402,6 +451,28 @@ fn in_words(place: DiagonalPlace) -> String {
     format!(
         "{kind} along {along} from x = {x}, y = {y}, storey {storey}, rising to {towards} {along}"
     )
+}
+
+/// An end of a column, or a point where it is struck, in words, with its frame where several stand in a plan.
+struct PlaceOfColumn(Option<usize>, MemberPlace, MemberEnd, Option<usize>);
+
+impl std::fmt::Display for PlaceOfColumn {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self(frame, member, end, point) = self;
+        if let Some(frame) = frame {
+            write!(formatter, "frame {frame}, ")?;
+        }
+        match member {
+            MemberPlace::Column { line, storey } => {
+                write!(formatter, "column {line}, storey {storey}, ")?;
+            }
+            other => write!(formatter, "{other}, ")?,
+        }
+        match point {
+            Some(point) => write!(formatter, "struck point {point}"),
+            None => formatter.write_str(end.of_column()),
+        }
+    }
 }
 
 /// Which way a base gives.
@@ -473,16 +544,24 @@ impl std::fmt::Display for SpringPlace {
                     SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Ok(()),
                 }
             }
-            Self::Fibre { member, end, fibre } => {
-                let end = end.of_column();
-                match member {
-                    MemberPlace::Column { line, storey } => {
-                        write!(formatter, "column {line}, storey {storey}, {end}")?;
-                    }
-                    other => write!(formatter, "{other}, {end}")?,
-                }
+            Self::Fibre {
+                frame,
+                member,
+                end,
+                point,
+                fibre,
+            } => {
+                let place = PlaceOfColumn(frame, member, end, point);
+                write!(formatter, "{place}")?;
                 write!(formatter, ", fibre {fibre}")
             }
+            Self::Surface {
+                frame,
+                member,
+                end,
+                point,
+                ..
+            } => write!(formatter, "{}", PlaceOfColumn(frame, member, end, point)),
             Self::Sliding { member, .. } => formatter.write_str(&sliding_in_words(member)),
             Self::Diagonal { place, .. } => formatter.write_str(&in_words(place)),
             Self::Storey { storey } => write!(formatter, "storey {storey}"),

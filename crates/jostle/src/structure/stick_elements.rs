@@ -86,6 +86,17 @@ impl StickModel {
         hinges.chain(storeys).chain(self.yielding.iter().cloned())
     }
 
+    /// Number of rows of bearings and of the ring under a building in plan, which come after springs that yield by themselves.
+    pub(crate) fn rows_of_bearings(&self) -> usize {
+        let forces = self.plan_mat.iter().flat_map(|mat| mat.forces());
+        3 * forces.count()
+    }
+
+    /// Rows of sections that yield on a surface, which come last.
+    pub(crate) fn surface_rows(&self) -> impl DoubleEndedIterator<Item = &YieldingElement> {
+        self.surfaces.iter().flatten()
+    }
+
     /// How far to the right of the node of its foundation a node stands that rises and sinks with its rotation: a foot, or what
     /// stands on one on columns that keep their length \[m\].
     #[must_use]

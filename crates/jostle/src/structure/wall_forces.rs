@@ -2,7 +2,7 @@
 
 use super::element::{THETA, Y, over_nodes};
 use super::member_forces::{Cuts, LinearForm, MemberForces, Motion};
-use super::{AssembledBuilding, MemberEnd, MemberPlace, SpringPlace};
+use super::{AssembledBuilding, FibreSection, MemberEnd, MemberPlace, SpringPlace};
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
 
@@ -110,14 +110,14 @@ impl MemberForces {
             let [first, last] = frame_wall.part.storeys;
             let sections: Vec<usize> = (0..discretization.sections.len())
                 .filter(|section| {
-                    let member = discretization.sections[*section].member;
+                    let FibreSection { frame, member, .. } = discretization.sections[*section];
                     let of_wall = |storey| member == MemberPlace::Column { line, storey };
-                    frame_wall.frame.is_none() && (first..=last).any(of_wall)
+                    frame == frame_wall.frame && (first..=last).any(of_wall)
                 })
                 .collect();
             let at_foot = |section: &&usize| {
                 let section = &discretization.sections[**section];
-                (section.member, section.end) == (place, MemberEnd::First)
+                (section.member, section.end, section.point) == (place, MemberEnd::First, None)
             };
             self.walls.push(WallForce {
                 upper_hinges: upper.filter(|upper| *upper != foot_hinge).collect(),

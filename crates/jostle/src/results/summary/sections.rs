@@ -41,7 +41,7 @@ pub struct FibreSummary {
     /// Greatest strain of bars in tension, ≥ 0; absent without bars \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steel_strain: Option<f64>,
-    /// When bars first yielded \[s\]; absent if they did not.
+    /// When bars, or the section on its surface, first yielded \[s\]; absent if they did not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yielded_s: Option<f64>,
     /// Strains that are judged; empty without any.
@@ -133,7 +133,7 @@ impl FibreSummary {
         Quantity::<Self>::optional("crushed_s", Unit::S, "time at which concrete first exceeded the strain at peak strength", |s| s.crushed_s),
         Quantity::<Self>::real("crushed_share", Unit::NONE, "fraction of the concrete fibres that exceeded it", |s| s.crushed_share),
         Quantity::<Self>::optional("steel_strain", Unit::NONE, "peak tensile strain of bars", |s| s.steel_strain),
-        Quantity::<Self>::optional("yielded_s", Unit::S, "time at which bars first yielded", |s| s.yielded_s),
+        Quantity::<Self>::optional("yielded_s", Unit::S, "time at which bars first yielded, or the surface of axial force and moment was first passed", |s| s.yielded_s),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |s| s.dissipated_j),
     ];
 }

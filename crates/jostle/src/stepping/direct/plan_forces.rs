@@ -1,7 +1,8 @@
-//! Forces in plan in a step: three rows of the list of springs that answer together (theory, Eq. B1p).
+//! Forces in plan, and sections that yield on a surface, in a step: three rows of the list of springs that answer together (theory,
+//! Eqs. B1p and Y5).
 
 use super::springs::{FIT, SpringTrial};
-use crate::hysteresis::{HysteresisMemory, Rates};
+use crate::hysteresis::{HysteresisMemory, PlanAnswer, Rates, Surface};
 use crate::structure::YieldingSpring;
 
 /// Takes the force of a solution from the row between to those along x and across, and answers; whether the force lies on the lines.
@@ -21,17 +22,34 @@ pub(super) fn follow(
     apart <= FIT * limit || apart <= FIT * libm::hypot(rows[0].answer, rows[1].answer)
 }
 
+/// Force and tangents at displacements of the first two rows; `None` for springs that answer by themselves.
+fn answer_at(
+    springs: &[YieldingSpring],
+    rows: &[SpringTrial],
+    memories: &[HysteresisMemory],
+    to: [f64; 2],
+) -> Option<PlanAnswer> {
+    let [x, y, between] = springs else {
+        return None;
+    };
+    let from = [&memories[0], &memories[1]];
+    if let Some(law) = x.hysteresis.circular() {
+        return Some(law.answer(from, to, &rates(rows, memories, to)));
+    }
+    let law = Surface::of([x, y, between].map(|row| &row.hysteresis))?;
+    Some(law.answer(from, to))
+}
+
 /// Force and tangents at the displacement reached.
 pub(super) fn answer(
     springs: &[YieldingSpring],
     rows: &mut [SpringTrial],
     memories: &[HysteresisMemory],
 ) {
-    let Some(law) = springs[0].hysteresis.circular() else {
+    let to = [rows[0].reached, rows[1].reached];
+    let Some(answer) = answer_at(springs, rows, memories, to) else {
         return;
     };
-    let to = [rows[0].reached, rows[1].reached];
-    let answer = law.answer([&memories[0], &memories[1]], to, &rates(rows, memories, to));
     let forces = answer.force.into_iter().chain([0.0]);
     for (row, (force, tangent)) in rows.iter_mut().zip(forces.zip(answer.tangents)) {
         (row.answer, row.next_tangent) = (force, tangent);
@@ -58,13 +76,11 @@ pub(super) fn slope(
     memories: &[HysteresisMemory],
     share: f64,
 ) -> f64 {
-    let Some(law) = springs[0].hysteresis.circular() else {
-        return 0.0;
-    };
     let way = [0, 1].map(|row| rows[row].reached - rows[row].deformation);
     let at = [0, 1].map(|row| rows[row].deformation + share * way[row]);
-    let rates = rates(rows, memories, at);
-    let force = law.answer([&memories[0], &memories[1]], at, &rates).force;
+    let Some(PlanAnswer { force, .. }) = answer_at(springs, rows, memories, at) else {
+        return 0.0;
+    };
     let row_slope = |row: usize| {
         let SpringTrial {
             balance, on_line, ..

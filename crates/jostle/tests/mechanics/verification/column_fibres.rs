@@ -15,7 +15,7 @@ use jostle_testkit::motions::fading;
 use crate::verification::support::{assembled, frame, framed, largest, run, steps};
 
 /// Twelve layers of concrete and three rows of bars, more of them on the right if it leans.
-fn fibres(leans: bool) -> ColumnFibres {
+pub(super) fn fibres(leans: bool) -> ColumnFibres {
     let (length, depth, width) = (0.35, 0.5, 0.5);
     let layer = depth / 12.0;
     let fall = ConcreteFall {
@@ -61,7 +61,7 @@ fn mirrored(column_fibres: &ColumnFibres) -> ColumnFibres {
 }
 
 /// Fibres in every column of a frame that shortens and stands under its weight.
-fn model(mut frame: Frame, fibres: &ColumnFibres) -> Model {
+pub(super) fn model(mut frame: Frame, fibres: &ColumnFibres) -> Model {
     frame.axial.columns_flexible = true;
     let places = frame.all_columns().map(|(place, _)| place);
     let hinges = FrameHinges {
@@ -86,14 +86,14 @@ fn model(mut frame: Frame, fibres: &ColumnFibres) -> Model {
 }
 
 /// Two storeys; spans differ, so that the mirror image is another frame.
-fn two_storeys() -> Frame {
+pub(super) fn two_storeys() -> Frame {
     let mut frame = frame(2, &[6.0, 4.5]);
     frame.floor_load = vec![300e3, 200e3];
     frame
 }
 
 /// In fixed steps: what is compared differs by rounding alone.
-fn shaken(model: &Model, sign: f64) -> (System, Outcome) {
+pub(super) fn shaken(model: &Model, sign: f64) -> (System, Outcome) {
     let motion = fading("along", 9.0, [sign * 1.8, 3.0], 150);
     let system = assembled(model);
     let plan = Plan {
@@ -107,7 +107,7 @@ fn shaken(model: &Model, sign: f64) -> (System, Outcome) {
 }
 
 /// Greatest and least displacements of floors, then axial force and moment of every section.
-fn answers((system, outcome): &(System, Outcome)) -> [Vec<[f64; 2]>; 3] {
+pub(super) fn answers((system, outcome): &(System, Outcome)) -> [Vec<[f64; 2]>; 3] {
     let floors = outcome.peaks.floors(0);
     let moved = floors.iter().map(|floor| {
         [
@@ -124,7 +124,7 @@ fn answers((system, outcome): &(System, Outcome)) -> [Vec<[f64; 2]>; 3] {
     [moved.collect(), forces(0), forces(1)]
 }
 
-fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64, what: &str) {
+pub(super) fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64, what: &str) {
     assert_eq!(a.len(), b.len());
     let scale = largest(&b.concat());
     for (a, b) in a.concat().into_iter().zip(b.concat()) {

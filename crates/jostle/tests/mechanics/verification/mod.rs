@@ -5,6 +5,7 @@ mod bad_models_are_refused;
 mod base_gravity_and_shifted_equilibrium;
 mod base_in_plan;
 mod column_fibres;
+mod column_surfaces;
 mod contact_constants;
 mod contact_formulas;
 mod contact_laws;
