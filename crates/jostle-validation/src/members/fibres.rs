@@ -58,7 +58,7 @@ fn pushed_over(name: &str, case: &Value) -> Row {
     let system = System::assemble(&input.model).expect("a sound model");
     let settings = PushSettings {
         direction: PushDirection::Right,
-        drift: 0.01,
+        drift: 0.012,
         ..PushSettings::default()
     };
     let pushed = pushover(&system.buildings[0], settings).expect("it bears");
