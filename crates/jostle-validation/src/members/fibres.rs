@@ -29,7 +29,7 @@ const WALL: (&str, &str) = (
 const LAYERS: usize = 200;
 
 /// Distance of that many layers from the integral.
-const OF_LAYERS: f64 = 1e-3;
+const OF_LAYERS: f64 = 1e-4;
 
 /// The parabola of concrete is a polygon here.
 pub(super) const POLYGON: f64 = 2e-4;
