@@ -29,7 +29,7 @@ const WALL: (&str, &str) = (
 const LAYERS: usize = 200;
 
 /// Distance of that many layers from the integral.
-const OF_LAYERS: f64 = 1e-3;
+const OF_LAYERS: f64 = 1e-4;
 
 /// The parabola of concrete is a polygon here.
 pub(super) const POLYGON: f64 = 2e-4;
@@ -58,7 +58,7 @@ fn pushed_over(name: &str, case: &Value) -> Row {
     let system = System::assemble(&input.model).expect("a sound model");
     let settings = PushSettings {
         direction: PushDirection::Right,
-        drift: 0.01,
+        drift: 0.012,
         ..PushSettings::default()
     };
     let pushed = pushover(&system.buildings[0], settings).expect("it bears");
