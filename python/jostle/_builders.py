@@ -414,7 +414,8 @@ class SpaceFrame(Part):
         density: of columns and walls, 2500 kg/m³ by default; the mass of the floors includes them.
         rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
             ``{"beams": "0.25 m", "columns": "0.3 m"}``.
-        brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``,
+        brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``, or
+            ``{"from": "0.1.1", "to": "2.3.2", "EA": "2 GN"}`` from floor and lines to floor and lines,
             with the lines at which their bays begin; with ``"hinge"`` they yield or buckle.
         infill: masonry panels in the bays, likewise: ``[{"along": "y", "x": 1, "modulus": "4 GPa", "thickness": "200 mm",
             "width": "mainstone"}]``.

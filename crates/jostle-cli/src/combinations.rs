@@ -378,6 +378,9 @@ fn model(kind: usize, feature: &Feature) -> String {
             (true, "space-frame") if feature.name.starts_with("walls whose feet") => {
                 format!("{WALL_OF_A_GRID}hinge = {{ rule = \"fibre\", length = 0.5 }}\n")
             }
+            (true, "space-frame") if added.contains("from = ") => {
+                added.replace("0.1", "0.1.1").replace("2.2", "2.2.2")
+            }
             (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
             _ => added,
         };

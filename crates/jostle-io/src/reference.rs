@@ -63,11 +63,7 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`[[building.brace]]` and `[[building.infill]]` of a plane frame",
         "Also of a frame at a line of a plan.",
     ),
-    (
-        Section::FrameBrace,
-        "`[[building.brace]]` of a plane frame, further keys",
-        "",
-    ),
+    (Section::BraceEnds, "`[[building.brace]]` by its joints", ""),
     (
         Section::GridBay,
         "`[[building.brace]]` and `[[building.infill]]` of a space frame",

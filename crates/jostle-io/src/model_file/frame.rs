@@ -166,7 +166,7 @@ fn read_members(
                 .lines()
                 .map(|line| Some(column(line)?.flexural_rigidity))
         },
-        has_joint: &|[floor, line]| frame.has_joint(floor, line),
+        has_joint: &|(floor, [line, _])| frame.has_joint(floor, line),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);

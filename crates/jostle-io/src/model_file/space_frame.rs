@@ -334,7 +334,7 @@ fn add_diagonals(
         heights: storey_heights,
         widths: Widths::OfGrid(&widths),
         column_rigidity: &column_rigidity,
-        has_joint: &|_| false,
+        has_joint: &|(floor, crossing)| frame.has_joint(floor, crossing),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);

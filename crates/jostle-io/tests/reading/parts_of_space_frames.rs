@@ -117,6 +117,80 @@ fn braces_stand_in_the_bays_that_are_named() {
     assert!(buckling(0) < buckling(1));
 }
 
+/// Between any two joints of the grid: from below, whichever is named first, with EA over the length between them.
+#[test]
+fn a_brace_joins_two_joints_by_name() {
+    let found =
+        |ends: &str| with(&format!("brace = [{{ {ends}, EA = \"500 MN\" }}]\n")).diagonals[0];
+    for (ends, crossings, length, name) in [
+        (
+            "from = \"0.1.1\", to = \"2.2.3\"",
+            [[0, 0], [1, 2]],
+            (36.0_f64 + 81.0 + 6.4 * 6.4).sqrt(),
+            "brace.0.1.1.to.2.2.3",
+        ),
+        (
+            "from = \"2.1.1\", to = \"1.3.2\"",
+            [[2, 1], [0, 0]],
+            (121.0_f64 + 25.0 + 3.2 * 3.2).sqrt(),
+            "brace.1.3.2.to.2.1.1",
+        ),
+        (
+            "from = \"0.2.3\", to = \"2.2.1\"",
+            [[1, 2], [1, 0]],
+            9.0_f64.hypot(6.4),
+            "brace.0.2.3.to.2.2.1",
+        ),
+        (
+            "from = \"0.1.2\", to = \"2.1.2\"",
+            [[0, 1], [0, 1]],
+            6.4,
+            "brace.0.1.2.to.2.1.2",
+        ),
+        (
+            "from = \"1.1.2\", to = \"0.1.1\"",
+            [[0, 0], [0, 1]],
+            5_f64.hypot(3.2),
+            "brace_y.1.1.1.up",
+        ),
+    ] {
+        let brace = found(ends);
+        assert_eq!(brace.place.crossings(), Some(crossings), "{ends}");
+        assert_eq!(brace.place.to_string(), name);
+        close(brace.stiffness, 500e6 / length, 1e8, 1e-13, name);
+    }
+    for (ends, problem) in [
+        (
+            "from = \"0.1\", to = \"2.2.3\"",
+            "write FLOOR.X.Y, such as \"0.1.1\"",
+        ),
+        (
+            "from = \"0.1.4\", to = \"2.2.3\"",
+            "lines of lines_x from 1 to 3 and of lines_y from 1 to 3",
+        ),
+        ("from = \"0.1.1\"", "to: is missing"),
+        ("from = \"0.1.1\", to = \"0.1.2\"", "is at floor 0 as well"),
+        (
+            "from = \"0.1.1\", to = \"2.2.3\", along = \"x\"",
+            "along: cannot be combined with from and to",
+        ),
+        // Outside of the L.
+        (
+            "from = \"0.1.1\", to = \"2.3.3\"",
+            "the nearest joint is \"2.3.2\"",
+        ),
+    ] {
+        let said = refused(&format!("brace = [{{ {ends}, EA = 5e8 }}]\n"));
+        assert!(said.contains(problem), "{problem}: {said}");
+    }
+    let upright = "brace = [{ from = \"0.1.1\", to = \"2.1.1\", EA = 5e8 }]\naxial = \"rigid\"\n";
+    let said = refused(upright);
+    assert!(
+        said.contains("beside columns that keep their length"),
+        "{said}"
+    );
+}
+
 #[test]
 fn wrong_places_are_refused() {
     let missing = refused("brace = [{ EA = 3e8 }]\n");

@@ -314,6 +314,15 @@ impl SpaceFrame {
         [c * x + s * y, c * y - s * x]
     }
 
+    /// How far the upper end of a diagonal lies from its lower one, along the lines x and y; `None` in no grid \[m\].
+    #[must_use]
+    pub fn run(&self, place: DiagonalPlace) -> Option<PlanPoint> {
+        let [from, to] = place
+            .crossings()?
+            .map(|[x, y]| [self.lines_x[x], self.lines_y[y]]);
+        Some([to[0] - from[0], to[1] - from[1]])
+    }
+
     /// Length of a member between the axes of its joints, in a building with these storey heights \[m\].
     #[must_use]
     pub fn length(&self, place: SpacePlace, storey_heights: &[f64]) -> f64 {

@@ -473,25 +473,23 @@ impl<'a> Assembly<'a> {
     /// How much longer a diagonal becomes: the difference of the displacements of its ends along it. `offsets`: how far from the joints
     /// these are.
     pub(super) fn elongation(&self, place: DiagonalPlace, offsets: [f64; 2]) -> Deformation {
-        let Some(crossings) = place.crossings() else {
+        let Some((crossings, run)) = place.crossings().zip(self.frame.run(place)) else {
             return Deformation::new();
         };
-        let level = place.storey - 1;
-        let joints = [
-            self.end(level.checked_sub(1), crossings[0]),
-            self.end(Some(level), crossings[1]),
-        ];
-        let height = self.heights[level];
+        let [low, high] = place.floors();
+        let joints = [low, high].map(|floor| floor.checked_sub(1));
+        let joints = [0, 1].map(|end| self.end(joints[end], crossings[end]));
+        let height: f64 = self.heights[low..high].iter().sum();
         let [lower, upper] = offsets;
         let above = [lower, height - upper];
         let ends: Vec<End> = (joints.into_iter().enumerate())
             .map(|(end, joint)| match offsets[end] == 0.0 {
                 true => joint,
-                false => self.on_column(crossings[end], level, above[end]),
+                // Struts stand in one storey.
+                false => self.on_column(crossings[end], low, above[end]),
             })
             .collect();
-        let [from, to] = crossings.map(|[x, y]| [self.frame.lines_x[x], self.frame.lines_y[y]]);
-        let way = [to[0] - from[0], to[1] - from[1], above[1] - above[0]];
+        let way = [run[0], run[1], above[1] - above[0]];
         let length = libm::hypot(libm::hypot(way[0], way[1]), way[2]);
         let mut deformation = Deformation::new();
         for (axis, part) in way.into_iter().enumerate() {
@@ -727,20 +725,20 @@ impl Assembly<'_> {
         let ends = ends.filter_map(|(index, diagonal)| {
             let [lower, upper] = diagonal.place.crossings()?;
             let [from, to] = diagonal.offsets;
-            let of_storey = diagonal.place.storey == storey;
+            let [low, high] = diagonal.place.floors();
             // Ends at joints hang on the joint, those above it on the column above.
             let starts = match from == 0.0 {
-                true => diagonal.place.storey == storey + 1 && is_here(height),
-                false => of_storey && is_here(from),
+                true => low == storey && is_here(height),
+                false => low + 1 == storey && is_here(from),
             };
             let sign = match (lower == line, upper == line) {
                 (true, _) if starts => 1.0,
-                (_, true) if of_storey && is_here(height - to) => -1.0,
+                (_, true) if high == storey && is_here(height - to) => -1.0,
                 _ => return None,
             };
-            let bay = self.frame.bays(diagonal.place.line?.along)[diagonal.place.bay - 1];
-            let rise = self.heights[diagonal.place.storey - 1] - from - to;
-            Some((index, sign * rise / libm::hypot(bay, rise)))
+            let [x, y] = self.frame.run(diagonal.place)?;
+            let rise = self.heights[low..high].iter().sum::<f64>() - from - to;
+            Some((index, sign * rise / libm::hypot(libm::hypot(x, y), rise)))
         });
         ends.collect()
     }

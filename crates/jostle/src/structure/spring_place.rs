@@ -393,6 +393,15 @@ fn in_words(place: DiagonalPlace) -> String {
         };
         return format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}{off}");
     };
+    if place.reach != Reach::BAY
+        && let Some([from, to]) = place.crossings()
+    {
+        let [low, high] = place.floors();
+        let ([x, y], [to_x, to_y]) = (from.map(|line| line + 1), to.map(|line| line + 1));
+        return format!(
+            "{kind}, floor {low}, x = {x}, y = {y} to floor {high}, x = {to_x}, y = {to_y}"
+        );
+    }
     let [x, y] = line.crossing(bay - 1).map(|crossing| crossing + 1);
     let along = line.along.name();
     let towards = match place.rise {

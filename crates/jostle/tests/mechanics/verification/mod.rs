@@ -4,6 +4,7 @@ mod a_row_of_three_buildings;
 mod bad_models_are_refused;
 mod base_gravity_and_shifted_equilibrium;
 mod base_in_plan;
+mod braces_between_joints;
 mod column_fibres;
 mod contact_constants;
 mod contact_formulas;

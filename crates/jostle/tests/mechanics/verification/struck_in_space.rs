@@ -373,21 +373,21 @@ fn points_take_their_mass_from_the_floors() {
     close(total, 2.0 * MASS + from_ground, MASS, 1e-14, "total mass");
 }
 
-type Dense = Vec<Vec<f64>>;
+pub(super) type Dense = Vec<Vec<f64>>;
 
 /// A frame of beam elements with six displacements at each end: u along x, across and up, then rotations about the same axes.
-struct Beams {
-    stiffness: Dense,
+pub(super) struct Beams {
+    pub(super) stiffness: Dense,
 }
 
 impl Beams {
-    fn new(nodes: usize) -> Self {
+    pub(super) fn new(nodes: usize) -> Self {
         Self {
             stiffness: vec![vec![0.0; 6 * nodes]; 6 * nodes],
         }
     }
 
-    fn add(&mut self, dofs: &[usize], matrix: &[&[f64]]) {
+    pub(super) fn add(&mut self, dofs: &[usize], matrix: &[&[f64]]) {
         for (row, i) in matrix.iter().zip(dofs) {
             for (value, j) in row.iter().zip(dofs) {
                 self.stiffness[*i][*j] += value;
@@ -396,7 +396,13 @@ impl Beams {
     }
 
     /// A member along an axis: EA, GJ, and EI of the deflection towards each of the other axes.
-    fn member(&mut self, ends: [usize; 2], axis: usize, length: f64, rigidities: [f64; 4]) {
+    pub(super) fn member(
+        &mut self,
+        ends: [usize; 2],
+        axis: usize,
+        length: f64,
+        rigidities: [f64; 4],
+    ) {
         let [axial, torsion, first, second] = rigidities;
         let [a, b] = ends.map(|end| 6 * end);
         for (offset, rigidity) in [(0, axial), (3, torsion)] {
@@ -428,7 +434,7 @@ impl Beams {
 }
 
 /// Tᵀ K T.
-fn transformed(matrix: &Dense, by: &Dense) -> Dense {
+pub(super) fn transformed(matrix: &Dense, by: &Dense) -> Dense {
     let n = by[0].len();
     let product: Dense = matrix
         .iter()
@@ -458,7 +464,7 @@ fn transformed(matrix: &Dense, by: &Dense) -> Dense {
 }
 
 /// Displacements of a frame over those that have mass, with everything else following: K of these, and how all follow.
-fn condensed(matrix: &Dense, kept: usize) -> (Dense, Dense) {
+pub(super) fn condensed(matrix: &Dense, kept: usize) -> (Dense, Dense) {
     // Gauss–Jordan on what follows, with the sides of what is kept.
     let n = matrix.len();
     let mut rows: Dense = matrix[kept..]
