@@ -426,6 +426,8 @@ class SpaceFrame(Part):
             ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
             the axial force and the moment about the other axis.
+        shear_failure: columns that fail in shear, in each direction by itself: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
+            ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         angle: angle from x of the site to the lines along x, counter-clockwise, 0 by default.
         plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
             ``{"corners": …}`` from the ground up; the rectangle of the outer lines by default.
@@ -497,6 +499,7 @@ class SpaceFrame(Part):
         infill: Sequence[Table] | None = None,
         wall: Sequence[Table] | None = None,
         hinges: Table | None = None,
+        shear_failure: Table | None = None,
         rotation_limit: Sequence[Table] | None = None,
         angle: Quantity | None = None,
         plan: Sequence[Any] | None = None,
@@ -547,6 +550,7 @@ class SpaceFrame(Part):
                 "infill": infill,
                 "wall": wall,
                 "hinges": hinges,
+                "shear_failure": shear_failure,
                 "rotation_limit": rotation_limit,
                 "angle": angle,
                 "plan": plan,

@@ -357,6 +357,14 @@ fn model(kind: usize, feature: &Feature) -> String {
             ),
             FIBRES if columns.is_none() => (HINGES_OF_FIBRES, building_kind.tables.to_owned()),
             BARS => ("", building_kind.tables.to_owned()),
+            keys if keys.starts_with("shear_failure") && building_kind.tables.contains("spans") => {
+                (
+                    "",
+                    building_kind
+                        .tables
+                        .replace("spans", &format!("{keys}spans")),
+                )
+            }
             // Frames at lines of a plan have theirs in their tables.
             _ if columns.is_some() && building_kind.tables.contains("column =") => ("", own_tables),
             _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),

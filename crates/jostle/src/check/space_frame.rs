@@ -84,6 +84,22 @@ pub(super) fn check_space_frame(
         format!("{path}.hinges"),
         || "cannot lose their strength in a space frame; take another rule".into(),
     );
+    let mut shear = frame.shear.values();
+    faults.require(
+        shear.all(|column| column.spring.falling_branch().is_some()),
+        format!("{path}.shear_failure"),
+        || "takes springs that lose their strength, from Hysteresis::failing".into(),
+    );
+    let stands = |place: SpacePlace| {
+        let mut members = frame.members.iter();
+        is_column(place) && members.any(|member| member.place == place)
+    };
+    if let Some((place, _)) = frame.shear.keys().find(|(place, _)| !stands(*place)) {
+        faults.add(
+            format!("{path}.shear_failure"),
+            format!("lets {} fail, and there is none", name(*place)),
+        );
+    }
     if !frame.fibres.is_empty() {
         fibres::check_weight(faults, &format!("{path}.hinges"), building);
     }

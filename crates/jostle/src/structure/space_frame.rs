@@ -93,8 +93,8 @@ struct End {
 /// Numbers of the displacements that a joint has by itself: rise and two rotations.
 type JointUnknowns = [Option<usize>; 3];
 
-/// The same that an end of a member has beyond hinges or fibres; `None` moves with its joint.
-pub(super) type EndUnknowns = [Option<usize>; 3];
+/// The same that an end of a member has beyond hinges or fibres, and how far it slides along the lines x and y; `None` moves with its joint.
+pub(super) type EndUnknowns = [Option<usize>; 5];
 
 impl End {
     /// A point of the rigid body of the same end, so far from it: u + ω × r.
@@ -110,8 +110,8 @@ impl End {
         self
     }
 
-    /// The end beyond hinges or fibres.
-    fn beyond(mut self, unknowns: EndUnknowns) -> Self {
+    /// The end beyond hinges or fibres. `sign`: of what it slides, positive where what is above moves further than what is below.
+    fn beyond(mut self, unknowns: EndUnknowns, sign: f64) -> Self {
         let [about_x, about_y, _] = &mut self.turned;
         for (to, unknown) in [&mut self.moved[2], about_x, about_y]
             .into_iter()
@@ -120,6 +120,9 @@ impl End {
             if let Some(number) = unknown {
                 *to = vec![(Unknown::End(number), 1.0)];
             }
+        }
+        for (to, slid) in self.moved.iter_mut().zip(&unknowns[3..]) {
+            to.extend(slid.map(|number| (Unknown::End(number), sign)));
         }
         self
     }
@@ -427,8 +430,8 @@ impl<'a> Assembly<'a> {
         let [first, last] = unknowns;
         let [a, b] = ends;
         let [a, b] = [
-            a.at(arm(rigid[0])).beyond(first),
-            b.at(arm(-rigid[1])).beyond(last),
+            a.at(arm(rigid[0])).beyond(first, 1.0),
+            b.at(arm(-rigid[1])).beyond(last, -1.0),
         ];
         let is_column = planes.len() == 2;
         let stretch = section.axial_rigidity.filter(|_| is_column);
@@ -446,7 +449,7 @@ impl<'a> Assembly<'a> {
         let parts = cuts.windows(2).enumerate().map(|(part, ends)| {
             let ((from, a), (to, b)) = (&ends[0], &ends[1]);
             let beyond = part.checked_sub(1).and_then(|point| at_points.get(point));
-            let a = &a.clone().beyond(beyond.copied().unwrap_or_default());
+            let a = &a.clone().beyond(beyond.copied().unwrap_or_default(), 1.0);
             let length = to - from;
             let bend = |plane: usize| {
                 let (towards, about, slope) = planes[plane];
@@ -598,7 +601,7 @@ pub(super) fn condense(
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
-        .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2], &[]))
+        .map(|member| assembly.springs(member.place, &member.section, Default::default(), &[]))
         .collect();
     let diagonals = frame.diagonals.iter();
     let diagonals = diagonals.map(|diagonal| {

@@ -81,10 +81,12 @@ pub enum SpringPlace {
     },
     /// Shear of a column, at its end.
     Shear {
-        /// Storey.
-        storey: usize,
-        /// Column line.
-        line: usize,
+        /// Its frame, where several stand in a plan.
+        frame: Option<usize>,
+        /// Its column.
+        member: MemberPlace,
+        /// Along which lines it slides, in a space frame.
+        axis: Option<PlanAxis>,
         /// Which end.
         end: MemberEnd,
     },
@@ -231,6 +233,10 @@ impl SpringPlace {
                 Some(name) => format!("frame {name}, {}", Self::Beam { floor, bay, end }),
                 None => self.to_string(),
             },
+            Self::Shear { frame, .. } => match frame.and_then(of_frame) {
+                Some(name) => format!("frame {name}, {self}"),
+                None => self.to_string(),
+            },
             Self::Sliding { frame, member } => match frame.and_then(of_frame) {
                 Some(name) => format!("frame {name}, {}", sliding_in_words(member)),
                 None => self.to_string(),
@@ -282,6 +288,14 @@ impl SpringPlace {
             Self::Sliding { member, .. } => Some(Self::Sliding {
                 frame: Some(frame),
                 member,
+            }),
+            Self::Shear {
+                member, axis, end, ..
+            } => Some(Self::Shear {
+                frame: Some(frame),
+                member,
+                axis,
+                end,
             }),
             _ => None,
         }
@@ -449,12 +463,17 @@ impl std::fmt::Display for SpringPlace {
                 let end = end.of_beam();
                 write!(formatter, "beam {bay}, floor {floor}, {end}")
             }
-            Self::Shear { storey, line, end } => {
-                let end = end.of_column();
-                write!(
-                    formatter,
-                    "column {line}, storey {storey}, shear at the {end}"
-                )
+            Self::Shear {
+                member, axis, end, ..
+            } => {
+                match member {
+                    MemberPlace::Column { line, storey } => {
+                        write!(formatter, "column {line}, storey {storey}")?;
+                    }
+                    other => write!(formatter, "{other}")?,
+                }
+                write!(formatter, ", shear at the {}", end.of_column())?;
+                axis.map_or(Ok(()), |axis| write!(formatter, ", {}", axis.name()))
             }
             Self::ColumnInPlan {
                 frame,

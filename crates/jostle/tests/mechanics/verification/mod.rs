@@ -52,6 +52,7 @@ mod rows_of_buildings;
 mod same_input_same_bits;
 mod series_stepping;
 mod shear_failure;
+mod shear_failure_in_plan;
 mod soil_beside;
 mod space;
 mod space_fibres;
