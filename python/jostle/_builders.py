@@ -128,7 +128,7 @@ class Frame(Part):
             ``{"from": "0.1", "to": "2.3", "EA": "2 GN"}`` from floor and line to floor and line; with ``"hinge"`` they yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
-            what they bear across their plane, and with ``"remove": True`` they fall out; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
+            what they bear across their plane, and with ``"remove": True`` they fall out; ``"density": "1400 kg/m3"`` adds their mass to the floors; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
             ``"damage_drifts"`` are the drifts of four damage states.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
             they yield at their feet, or above its ``"floors"``. Bars make feet of fibres: ``{"steel": "HRB400",

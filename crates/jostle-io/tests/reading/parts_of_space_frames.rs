@@ -117,6 +117,63 @@ fn braces_stand_in_the_bays_that_are_named() {
     assert!(buckling(0) < buckling(1));
 }
 
+/// With floors = "all" a slab before the bay of the neighbour is not left without a contact in silence.
+#[test]
+fn a_slab_that_meets_no_column_is_told() {
+    let building = |name: &str, at: &str, lines_y: &str, heights: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nkind = \"space-frame\"\nat = {at}\nstorey_height = {heights}\nlines_x = [0, 6]\nlines_y = {lines_y}\nmass = \"60 t\"\nelastic_modulus = \"30 GPa\"\ncolumn = {{ size = [0.5, 0.4] }}\nbeam_x = {{ width = 0.3, depth = 0.5 }}\nbeam_y = {{ width = 0.3, depth = 0.5 }}\n"
+        )
+    };
+    let text = format!(
+        "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nfloors = \"all\"\nlaw = \"hertz\"\nstiffness = 2e9\n",
+        building("A", "[0, 0]", "[0, 5]", "[4, 3.6]"),
+        building("B", "[6.02, 1]", "[0, 3]", "[2.7, 3.4]")
+    );
+    let warnings = read(&text)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .warnings;
+    let told = warnings.iter().any(|warning| {
+        warning.contains(
+            "gap[0].floors: floors 1, 2 of \"B\", from 2.700 m to 6.100 m, meet no column of \"A\"",
+        ) && warning.contains("none of its columns stands within the common width")
+    });
+    assert!(told, "{warnings:?}");
+}
+
+/// Panels of 4 t on the first line: 4 t on floor 1 and 2 t on floor 2, at both joints, beside 90 t spread over the L.
+#[test]
+fn panels_have_mass_at_their_joints() {
+    let floors = |more: &str| {
+        let panel =
+            format!("infill = [{{ along = \"x\", x = 1, y = 1, stiffness = 8e7{more} }}]\n");
+        let input = read(&format!("{SPACE}{panel}")).unwrap_or_else(|error| panic!("{error}"));
+        match &input.model.buildings[0].structure {
+            Structure::Tiers(tiers) => tiers.floors.clone(),
+            other => panic!("no plan: {other:?}"),
+        }
+    };
+    let (plain, heavy) = (floors(""), floors(", mass = \"4 t\""));
+    for (panels, (plain, heavy)) in [4e3, 2e3].into_iter().zip(plain.iter().zip(&heavy)) {
+        assert_eq!(plain.mass, 90e3);
+        close(heavy.mass, 90e3 + panels, 1e5, 1e-14, "mass");
+        let centre = [
+            (90e3 * plain.centre[0] + panels * 3.0) / heavy.mass,
+            90e3 * plain.centre[1] / heavy.mass,
+        ];
+        let about = |mass: f64, at: [f64; 2]| {
+            mass * ((at[0] - centre[0]).powi(2) + (at[1] - centre[1]).powi(2))
+        };
+        let polar = plain.polar_mass
+            + about(90e3, plain.centre)
+            + about(0.5 * panels, [0.0, 0.0])
+            + about(0.5 * panels, [6.0, 0.0]);
+        close(heavy.centre[0], centre[0], 5.0, 1e-13, "centre");
+        close(heavy.centre[1], centre[1], 5.0, 1e-13, "centre");
+        close(heavy.polar_mass, polar, polar, 1e-13, "polar mass");
+    }
+}
+
 /// Between any two joints of the grid: from below, whichever is named first, with EA over the length between them.
 #[test]
 fn a_brace_joins_two_joints_by_name() {
