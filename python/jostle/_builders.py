@@ -426,6 +426,8 @@ class SpaceFrame(Part):
             ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
             the axial force and the moment about the other axis.
+        joint: connections of beams that yield: ``{"rotational_stiffness": "40 MN.m/rad", "hinge": {"rule": "bilinear", "yield":
+            "180 kN.m", "post_yield": 0.03}}``, or such a table for each direction of beams, ``{"x": …, "y": …}``.
         shear_failure: columns that fail in shear, in each direction by itself: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         angle: angle from x of the site to the lines along x, counter-clockwise, 0 by default.
@@ -499,6 +501,7 @@ class SpaceFrame(Part):
         infill: Sequence[Table] | None = None,
         wall: Sequence[Table] | None = None,
         hinges: Table | None = None,
+        joint: Table | None = None,
         shear_failure: Table | None = None,
         rotation_limit: Sequence[Table] | None = None,
         angle: Quantity | None = None,
@@ -550,6 +553,7 @@ class SpaceFrame(Part):
                 "infill": infill,
                 "wall": wall,
                 "hinges": hinges,
+                "joint": joint,
                 "shear_failure": shear_failure,
                 "rotation_limit": rotation_limit,
                 "angle": angle,

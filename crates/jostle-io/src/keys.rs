@@ -92,6 +92,10 @@ pub(crate) enum Section {
     Axial,
     ShearDeformation,
     Joint,
+    /// Connections of the beams of a space frame.
+    BeamJoint,
+    /// The same, by direction.
+    SpaceJoint,
     RigidEnds,
     FibreSteel,
     /// Strains at which fibres fail.
@@ -883,6 +887,7 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the grid intersections: one table for all, or [[building.column]] tables for some; later tables override earlier ones. Without plan, the plan is the rectangle of the outer lines. Columns and beams outside the plan of their floor are left out."),
     optional(S::SpaceFrame, "beam_x", Kind::TablePerPlace(S::SpaceBeam), "Beams along x, likewise. Needed if lines_x has two lines or more."),
     optional(S::SpaceFrame, "beam_y", Kind::TablePerPlace(S::SpaceBeam), "Beams across, likewise. Needed if lines_y has two lines or more."),
+    optional(S::SpaceFrame, "joint", Kind::TableOf(&[S::BeamJoint, S::SpaceJoint]), "Connections between beam ends and columns that yield in the vertical planes of the beams, instead of hinges of beams."),
     optional(S::SpaceFrame, "brace", Tables(&[S::GridBay, S::BraceEnds, S::Brace]), "Braces between joints."),
     optional(S::SpaceFrame, "infill", Tables(&[S::GridBay, S::Infill]), "Masonry panels in the bays."),
     optional(S::SpaceFrame, "shear_failure", Kind::Table(S::ShearFailure), "Shear failure of columns, in each direction by itself; without this table their shear strength is unlimited."),
@@ -1114,6 +1119,10 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::FibreSteel, "cR2", Quantity(D::Dimensionless), "0.15", "menegotto-pinto: ratio of plastic to yield deformation at which half of that reduction is reached.").usual("a deformation ratio", 0.01, 1.0),
     default(S::RigidEnds, "beams", Quantity(D::Length), "0", "Distance from the axis of a column to the point where its beams begin to bend.").usual("a rigid end", 0.02, 2.0),
     default(S::RigidEnds, "columns", Quantity(D::Length), "0", "Distance from the axis of a beam to the points where the columns below and above begin to bend; columns have no rigid end at the ground.").usual("a rigid end", 0.02, 2.0),
+    required(S::BeamJoint, "rotational_stiffness", Quantity(D::RotationalStiffness), "Rotational stiffness of the connection before it yields.").usual("a rotational stiffness", 1e4, 1e12),
+    required(S::BeamJoint, "hinge", Kind::Table(S::BaseRocking), "Yielding of the connection."),
+    optional(S::SpaceJoint, "x", Kind::Table(S::BeamJoint), "Connections of beams along x alone, instead of the keys above."),
+    optional(S::SpaceJoint, "y", Kind::Table(S::BeamJoint), "Connections of beams across alone."),
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column.").usual("a joint stiffness", 1e4, 9e12),
     default(S::Joint, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical stiffness between beam end and column.").usual("a joint stiffness", 1e4, 9e12),
     optional(S::Joint, "hinge", Kind::Table(S::BaseRocking), "Yielding of the connection, instead of hinges of beams; without this table the connection is elastic. Requires rotational_stiffness."),

@@ -169,6 +169,16 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::ShearDeformation, "`shear` of a frame", ""),
     (Section::Joint, "`joint` of a frame", ""),
     (
+        Section::BeamJoint,
+        "`joint` of a space frame, also `joint.x` and `joint.y`",
+        "",
+    ),
+    (
+        Section::SpaceJoint,
+        "`joint` of a space frame by direction",
+        "",
+    ),
+    (
         Section::FibreSteel,
         "`hinges.steel` with fibres",
         "Menegotto and Pinto (1973) with the exponents of Filippou, Popov and Bertero (1983): see [the rules](hysteresis.md#menegotto-pinto).",

@@ -20,7 +20,7 @@ use super::section::{self, read_modulus, read_modulus_beside_bars};
 use super::slab::{self, OnSlab};
 use super::space_hinges::{Moments, SpaceHinges};
 use super::steel_profile;
-use super::{fibre_hinges, infill, rigid_ends, space_walls};
+use super::{fibre_hinges, infill, joint, rigid_ends, space_walls};
 use crate::keys::{AXIAL, SECTION_CONCRETES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -258,6 +258,7 @@ pub(super) fn read(
         );
         add_fibres(reader, view, &hinges, &sections, &mut frame, storey_heights);
     }
+    joint::read_in_space(reader, view, &mut frame);
     ReadFrame {
         frame,
         sections,

@@ -174,6 +174,109 @@ fn panels_have_mass_at_their_joints() {
     }
 }
 
+/// Connections of beams yield as those of plane frames at the same lines, shaken along x and across.
+#[test]
+fn connections_yield_as_in_plane_frames() {
+    let joint = "joint = { rotational_stiffness = \"40 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"60 kN.m\", post_yield = 0.03 } }\n";
+    let weaker = "joint = { rotational_stiffness = \"30 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"45 kN.m\", post_yield = 0.03 } }\n";
+    let usual = "storeys = 2\nstorey_height = \"3.2 m\"\nmass = \"60 t\"\naxial = \"rigid\"\np_delta = false\ndamping = { alpha = 0.4, beta = 0.0 }\n";
+    let plane = |name: &str, direction: &str, at: &str, spans: &str, column: &str, joint: &str| {
+        format!(
+            "[[building.frame]]\nname = \"{name}\"\nat = {at}\ndirection = \"{direction}\"\nspans = {spans}\nelastic_modulus = \"30 GPa\"\ncolumn = {column}\nbeam = {{ width = 0.3, depth = 0.5 }}\naxial = \"rigid\"\n{joint}"
+        )
+    };
+    let frames = [
+        plane(
+            "a",
+            "x",
+            "[[0, 0], [0, 5]]",
+            "[6, 5]",
+            "{ width = 0.4, depth = 0.5 }",
+            joint,
+        ),
+        plane(
+            "b",
+            "y",
+            "[[0, 0], [6, 0], [11, 0]]",
+            "[5]",
+            "{ width = 0.5, depth = 0.4 }",
+            weaker,
+        ),
+    ];
+    let at_lines = format!(
+        "[[building]]\nname = \"A\"\nkind = \"frame\"\nplan = [11, 5]\n{}{}{}",
+        usual.replace("axial = \"rigid\"\n", ""),
+        frames[0],
+        frames[1]
+    );
+    let inner = |joint: &str| {
+        let table = joint.trim().trim_start_matches("joint = ");
+        table.to_owned()
+    };
+    let in_space = format!(
+        "[[building]]\nname = \"A\"\nkind = \"space-frame\"\nlines_x = [0, 6, 11]\nlines_y = [0, 5]\nelastic_modulus = \"30 GPa\"\ncolumn = {{ size = [0.5, 0.4] }}\nbeam_x = {{ width = 0.3, depth = 0.5 }}\nbeam_y = {{ width = 0.3, depth = 0.5 }}\n{usual}joint = {{ x = {}, y = {} }}\n",
+        inner(joint),
+        inner(weaker)
+    );
+    // Beams twist with the joints of the other direction: they hardly resist here.
+    let in_space = in_space.replace("elastic_modulus", "torsion_factor = 1e-9\nelastic_modulus");
+    for angle in [0.0, std::f64::consts::FRAC_PI_2] {
+        let peaks = [&at_lines, &in_space].map(|text| {
+            let mut input = read(text).unwrap_or_else(|error| panic!("{error}"));
+            input.model.analysis.step = Some(2e-3);
+            let motion = GroundMotion {
+                bearing: Some(Box::new(jostle::Bearing {
+                    angle,
+                    across: None,
+                })),
+                ..fading("along", 9.0, [2.0, 3.0], 150)
+            };
+            let (_, outcome) = runs::run(&input.model, &motion, Some(0.02));
+            assert!(
+                outcome.energy.hysteretic > 1e3,
+                "{}",
+                outcome.energy.hysteretic
+            );
+            let floors = outcome.peaks.floors(0);
+            let moved = floors.iter();
+            moved
+                .map(|floor| {
+                    [
+                        floor.displacement().size(),
+                        floor.across().displacement().size(),
+                    ]
+                })
+                .collect::<Vec<_>>()
+        });
+        for (one, other) in peaks[0].iter().zip(&peaks[1]) {
+            let scale = one[0].max(one[1]);
+            close(other[0], one[0], scale, 1e-6, "along x");
+            close(other[1], one[1], scale, 1e-6, "across");
+        }
+    }
+    for (key, problem) in [
+        (
+            "joint = { hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 } }\n",
+            "rotational_stiffness: is missing",
+        ),
+        (
+            "joint = { rotational_stiffness = 4e7 }\n",
+            "hinge: is missing",
+        ),
+        (
+            "joint = { rotational_stiffness = 4e7, hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 }, x = {} }\n",
+            "cannot be combined with x and y",
+        ),
+        (
+            "joint = { rotational_stiffness = 4e7, hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 } }\nhinges = { rule = \"bilinear\", beam = { yield = 6e4, post_yield = 0.02 } }\n",
+            "stands where beams have hinges already",
+        ),
+    ] {
+        let said = refused(key);
+        assert!(said.contains(problem), "{problem}: {said}");
+    }
+}
+
 /// Between any two joints of the grid: from below, whichever is named first, with EA over the length between them.
 #[test]
 fn a_brace_joins_two_joints_by_name() {
