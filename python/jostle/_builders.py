@@ -129,7 +129,7 @@ class Frame(Part):
             ``{"from": "0.1", "to": "2.3", "EA": "2 GN"}`` from floor and line to floor and line; with ``"hinge"`` they yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
-            what they bear across their plane, and with ``"remove": True`` they fall out; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
+            what they bear across their plane, and with ``"remove": True`` they fall out; ``"density": "1400 kg/m3"`` adds their mass to the floors; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
             ``"damage_drifts"`` are the drifts of four damage states.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
             they yield at their feet, or above its ``"floors"``. Bars make feet of fibres: ``{"steel": "HRB400",
@@ -415,7 +415,8 @@ class SpaceFrame(Part):
         density: of columns and walls, 2500 kg/m³ by default; the mass of the floors includes them.
         rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
             ``{"beams": "0.25 m", "columns": "0.3 m"}``.
-        brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``,
+        brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``, or
+            ``{"from": "0.1.1", "to": "2.3.2", "EA": "2 GN"}`` from floor and lines to floor and lines,
             with the lines at which their bays begin; with ``"hinge"`` they yield or buckle.
         infill: masonry panels in the bays, likewise: ``[{"along": "y", "x": 1, "modulus": "4 GPa", "thickness": "200 mm",
             "width": "mainstone"}]``.
@@ -426,6 +427,10 @@ class SpaceFrame(Part):
             ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
             the axial force and the moment about the other axis.
+        joint: connections of beams that yield: ``{"rotational_stiffness": "40 MN.m/rad", "hinge": {"rule": "bilinear", "yield":
+            "180 kN.m", "post_yield": 0.03}}``, or such a table for each direction of beams, ``{"x": …, "y": …}``.
+        shear_failure: columns that fail in shear, in each direction by itself: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
+            ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         angle: angle from x of the site to the lines along x, counter-clockwise, 0 by default.
         plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
             ``{"corners": …}`` from the ground up; the rectangle of the outer lines by default.
@@ -497,6 +502,8 @@ class SpaceFrame(Part):
         infill: Sequence[Table] | None = None,
         wall: Sequence[Table] | None = None,
         hinges: Table | None = None,
+        joint: Table | None = None,
+        shear_failure: Table | None = None,
         rotation_limit: Sequence[Table] | None = None,
         angle: Quantity | None = None,
         plan: Sequence[Any] | None = None,
@@ -547,6 +554,8 @@ class SpaceFrame(Part):
                 "infill": infill,
                 "wall": wall,
                 "hinges": hinges,
+                "joint": joint,
+                "shear_failure": shear_failure,
                 "rotation_limit": rotation_limit,
                 "angle": angle,
                 "plan": plan,

@@ -146,6 +146,13 @@ fn with_bars(text: &str) -> String {
         .fold(text.to_owned(), |text, end| text.replace(end, &with(end)))
 }
 
+const JOINT: &str = "joint = { rotational_stiffness = \"40 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"180 kN.m\", post_yield = 0.03 } }\n";
+
+/// Whether keys belong to the frames of a building that has some at lines of its plan.
+fn of_frames(keys: &str) -> bool {
+    keys == JOINT || keys.starts_with("shear_failure")
+}
+
 /// Stands for columns whose ends are made of fibres.
 const FIBRES: &str = "FIBRES";
 
@@ -203,6 +210,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that yield on a surface of axial force and moment", keys: SURFACES, ..USUAL },
+        Feature { name: "connections of beams that yield", keys: JOINT, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
         Feature { name: "limits of rotation", keys: OWN_WORDS, tables: "[[building.rotation_limit]]\nof = \"columns\"\nlimits = { io = 0.005 }\n", ..USUAL },
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
@@ -364,6 +372,12 @@ fn model(kind: usize, feature: &Feature) -> String {
                 (HINGES_OF_FIBRES, building_kind.tables.to_owned())
             }
             BARS => ("", building_kind.tables.to_owned()),
+            keys if of_frames(keys) && building_kind.tables.contains("spans") => (
+                "",
+                building_kind
+                    .tables
+                    .replace("spans", &format!("{keys}spans")),
+            ),
             // Frames at lines of a plan have theirs in their tables.
             _ if columns.is_some() && building_kind.tables.contains("column =") => ("", own_tables),
             _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),
@@ -384,6 +398,9 @@ fn model(kind: usize, feature: &Feature) -> String {
             }
             (true, "space-frame") if feature.name.starts_with("walls whose feet") => {
                 format!("{WALL_OF_A_GRID}hinge = {{ rule = \"fibre\", length = 0.5 }}\n")
+            }
+            (true, "space-frame") if added.contains("from = ") => {
+                added.replace("0.1", "0.1.1").replace("2.2", "2.2.2")
             }
             (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
             _ => added,

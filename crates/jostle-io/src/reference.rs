@@ -63,11 +63,7 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`[[building.brace]]` and `[[building.infill]]` of a plane frame",
         "Also of a frame at a line of a plan.",
     ),
-    (
-        Section::FrameBrace,
-        "`[[building.brace]]` of a plane frame, further keys",
-        "",
-    ),
+    (Section::BraceEnds, "`[[building.brace]]` by its joints", ""),
     (
         Section::GridBay,
         "`[[building.brace]]` and `[[building.infill]]` of a space frame",
@@ -172,6 +168,16 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::Axial, "`axial` of a frame", ""),
     (Section::ShearDeformation, "`shear` of a frame", ""),
     (Section::Joint, "`joint` of a frame", ""),
+    (
+        Section::BeamJoint,
+        "`joint` of a space frame, also `joint.x` and `joint.y`",
+        "",
+    ),
+    (
+        Section::SpaceJoint,
+        "`joint` of a space frame by direction",
+        "",
+    ),
     (
         Section::FibreSteel,
         "`hinges.steel` with fibres",

@@ -607,7 +607,8 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             let (storey, line) = storey_and_line(member);
             ("column", Some(storey), Some(line), "struck")
         }
-        Some(SpringPlace::Shear { storey, line, end }) => {
+        Some(SpringPlace::Shear { member, end, .. }) => {
+            let (storey, line) = storey_and_line(member);
             ("column shear", Some(storey), Some(line), end.of_column())
         }
         Some(SpringPlace::Fibre {

@@ -350,12 +350,12 @@ class SpaceScene {
     });
     // Braces of a space frame as lines between joints, its infill panels as shaded bays: both struts of a panel lie in one.
     const joint = ([x, y], level) => this.at(level > 0 ? this.moved(i, level - 1, [x, y], state[level - 1]) : building.mat ? this.moved(i, -1, [x, y], this.floorNow(i, -1)) : [sx + x, sy + y, 0]);
-    for (const { ends, storey, infill, lines, until } of building.diagonals) {
+    for (const { ends, storey, top, infill, lines, until } of building.diagonals) {
       if ((infill && lines[0] > lines[1]) || this.time >= until) continue;
       const [low, high] = ends;
       const seen = infill
         ? [joint(low, storey - 1), joint(high, storey - 1), joint(high, storey), joint(low, storey)]
-        : [joint(low, storey - 1), joint(high, storey)];
+        : [joint(low, storey - 1), joint(high, top ?? storey)];
       const look = infill ? { fill: this.quiet, alpha: 0.18, closed: true } : { stroke: colour, width: 1.4, dash: [5, 3] };
       parts.push({ near: mean(seen), paint: () => this.line(seen, look) });
     }

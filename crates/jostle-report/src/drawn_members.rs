@@ -62,6 +62,11 @@ impl DiagonalData {
         }
     }
 
+    /// Floors of its lower and its upper end; 0 is the ground.
+    pub(crate) fn floors(&self) -> [usize; 2] {
+        [self.storey - 1, self.top.unwrap_or(self.storey)]
+    }
+
     /// The same until its panel falls out, if it does.
     pub(crate) fn until(self, fallen: Option<f64>) -> Self {
         Self {

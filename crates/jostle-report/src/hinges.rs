@@ -109,7 +109,16 @@ pub(crate) fn coordinates(page: &Page, place: &Place) -> (char, usize, usize, us
             MemberPlace::InSpace(place) => ('s', place.storey() + 1, 0, 0),
         },
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
-        SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
+        SpringPlace::Shear {
+            frame, member, end, ..
+        } => match (frame, member) {
+            (None, MemberPlace::Column { line, storey }) => ('v', storey, line, last(end)),
+            (
+                _,
+                MemberPlace::Column { storey: level, .. } | MemberPlace::Beam { floor: level, .. },
+            ) => ('s', level, 0, 0),
+            (_, MemberPlace::InSpace(place)) => ('s', place.storey() + 1, 0, last(end)),
+        },
         SpringPlace::Fibre {
             frame,
             member,

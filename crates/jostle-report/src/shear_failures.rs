@@ -67,7 +67,7 @@ fn table(failed: &[&ShearFailure]) -> Markup {
                     @for own in failed.iter().take(MOST_ROWS) {
                         tr {
                             th scope="row" { (own.column) }
-                            td { (own.at) }
+                            td { (own.at) @if let Some(axis) = own.along { ", " (axis) } }
                             @for value in cells(own) { td.number { (value) } }
                             td { (during(own)) }
                         }

@@ -510,9 +510,12 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
                         impact.start_s
                     )
                 });
+                let along = first
+                    .along
+                    .map_or_else(String::new, |axis| format!(" along {axis}"));
                 writeln!(
                     text,
-                    "{between}{} {}, first {} at its {}, t = {:.3} s{during}",
+                    "{between}{} {}, first {} at its {}{along}, t = {:.3} s{during}",
                     building.name,
                     styled(LOUD, &format!("fails in shear in {count} columns")),
                     first.column,

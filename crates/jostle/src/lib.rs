@@ -111,7 +111,7 @@ mod simd;
 
 pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
-pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
+pub use interface::{UnmatchedFloors, UnmetColumns, floor_and_height, sticking_stiffness};
 pub use model::{
     AcrossBase, Analysis, Axial, Base, BearingBounds, BearingFactors, BearingStrength, BedSpring,
     Building, ColumnFibres, CouplingBeam, Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre,

@@ -114,7 +114,7 @@ impl Script<'_> {
             let Some(crossings) = diagonal.place.crossings() else {
                 continue;
             };
-            let levels = [diagonal.place.storey - 1, diagonal.place.storey].into_iter();
+            let levels = diagonal.place.floors().into_iter();
             let joints = levels.zip(crossings).map(|place| tags.get(&place).copied());
             let [Some(first), Some(last)] = joints.collect::<Vec<_>>()[..] else {
                 return Err("has a brace without a joint");

@@ -18,11 +18,14 @@ pub(super) struct Bays<'a> {
     pub(super) widths: Widths<'a>,
     /// E I in the plane of the bay of the columns on both sides of it \[N·m²\]; `None` where there is none.
     pub(super) column_rigidity: &'a dyn Fn(DiagonalPlace) -> [Option<f64>; 2],
-    /// Whether a floor of a plane frame has a joint at a line from 0; those of floor 0 are feet.
-    pub(super) has_joint: &'a dyn Fn([usize; 2]) -> bool,
+    /// Whether a floor has a joint at a line of a plane frame from 0, or where two lines of a grid cross; those of floor 0 are feet.
+    pub(super) has_joint: &'a dyn Fn(Joint) -> bool,
     /// Whether a diagonal finds both its joints.
     pub(super) has_joints: &'a dyn Fn(DiagonalPlace) -> bool,
 }
+
+/// A floor, 0 for the ground, and a line of a plane frame, with 0 across, or the crossing of two lines; both from 0.
+pub(super) type Joint = (usize, [usize; 2]);
 
 /// Widths of bays \[m\].
 #[derive(Clone, Copy)]
@@ -47,24 +50,54 @@ impl Bays<'_> {
     /// Length of a diagonal from joint to joint \[m\].
     pub(super) fn length(&self, place: DiagonalPlace) -> f64 {
         let [low, high] = place.floors();
-        let along = match self.widths {
-            Widths::OfFrame(widths) => {
-                let crossed = &widths[place.bay - 1..place.bay - 1 + place.reach.bays];
-                crossed.iter().sum()
-            }
-            Widths::OfGrid(_) => self.width(place),
+        let rise = self.heights[low..high].iter().sum();
+        let [from, to] = match place.crossings() {
+            Some(crossings) => crossings,
+            None => place.lines().map(|line| [line, 0]),
         };
-        libm::hypot(along, self.heights[low..high].iter().sum())
+        let ([x, y], [to_x, to_y]) = (self.at(from), self.at(to));
+        let along = match place.reach == Reach::BAY {
+            true => self.width(place),
+            false => libm::hypot(to_x - x, to_y - y),
+        };
+        libm::hypot(along, rise)
+    }
+
+    /// Where a joint stands in the plan \[m\].
+    fn at(&self, [x, y]: [usize; 2]) -> [f64; 2] {
+        let before = |widths: &[f64], line: usize| widths[..line].iter().sum();
+        match self.widths {
+            Widths::OfFrame(widths) => [before(widths, x), 0.0],
+            Widths::OfGrid([along, across]) => [before(along, x), before(across, y)],
+        }
+    }
+
+    /// Lines at which joints stand: those of a plane frame, or of both directions of a grid.
+    fn lines(&self) -> [usize; 2] {
+        match self.widths {
+            Widths::OfFrame(widths) => [widths.len() + 1, 1],
+            Widths::OfGrid(both) => both.each_ref().map(|widths| widths.len() + 1),
+        }
+    }
+
+    /// How joints are written, with an example.
+    fn words(&self) -> [&'static str; 2] {
+        match self.widths {
+            Widths::OfFrame(_) => ["FLOOR.LINE", "\"0.1\""],
+            Widths::OfGrid(_) => ["FLOOR.X.Y", "\"0.1.1\""],
+        }
     }
 
     /// Keys of a table for some of the bays.
     pub(super) fn sections(&self, kind: DiagonalKind) -> &'static [Section] {
         match (self.widths, kind) {
             (Widths::OfFrame(_), DiagonalKind::Brace) => {
-                &[Section::FrameBay, Section::FrameBrace, Section::Brace]
+                &[Section::FrameBay, Section::BraceEnds, Section::Brace]
             }
             (Widths::OfFrame(_), DiagonalKind::Infill) => &[Section::FrameBay, Section::Infill],
-            (Widths::OfGrid(_), DiagonalKind::Brace) => &[Section::GridBay, Section::Brace],
+            (Widths::OfGrid(_), DiagonalKind::Brace) => {
+                &[Section::GridBay, Section::BraceEnds, Section::Brace]
+            }
             (Widths::OfGrid(_), DiagonalKind::Infill) => &[Section::GridBay, Section::Infill],
         }
     }
@@ -84,7 +117,13 @@ impl Bays<'_> {
         let along = match reader.get(view, "along") {
             Some(field) => reader.choice(&field, AXES_OF_PLAN, &[]),
             None => {
-                let remedy = "add along = \"x\" or along = \"y\", the direction of its bays";
+                let or_ends = match view.sections().contains(&Section::BraceEnds) {
+                    true => "; or from and to, the joints of one brace",
+                    false => "",
+                };
+                let remedy = format!(
+                    "add along = \"x\" or along = \"y\", the direction of its bays{or_ends}"
+                );
                 reader.missing(view, "along", remedy);
                 None
             }
@@ -211,11 +250,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
             return None;
         }
     };
-    let between = match bays.widths {
-        Widths::OfFrame(widths) => between(reader, &view, widths.len(), bays)?,
-        Widths::OfGrid(_) => None,
-    };
-    let mut braces = match between {
+    let mut braces = match between(reader, &view, bays)? {
         Some(place) => vec![diagonal(place, stiffness_of(place, bays.length(place))?)],
         None => places(
             reader,
@@ -264,14 +299,17 @@ fn diagonal(place: DiagonalPlace, stiffness: f64) -> Diagonal {
 fn between(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    spans: usize,
     bays: Bays<'_>,
 ) -> Option<Option<DiagonalPlace>> {
     const ENDS: [&str; 2] = ["from", "to"];
     if !ENDS.iter().any(|key| view.has(key)) {
         return Some(None);
     }
-    for key in ["storeys", "bay", "direction"] {
+    let of_bays: &[&'static str] = match bays.widths {
+        Widths::OfFrame(_) => &["storeys", "bay", "direction"],
+        Widths::OfGrid(_) => &["storeys", "along", "x", "y", "direction"],
+    };
+    for key in of_bays {
         if let Some(field) = reader.get(view, key) {
             *reader.bad(&field, "cannot be combined with from and to") =
                 Some(format!("remove {key}, or from and to"));
@@ -279,94 +317,114 @@ fn between(
         }
     }
     let ends = ENDS.map(|key| match reader.get(view, key) {
-        Some(field) => joint(reader, &field, spans, bays),
+        Some(field) => joint(reader, &field, bays),
         None => {
-            let remedy = "add the other end as FLOOR.LINE, such as \"0.1\"";
+            let [form, example] = bays.words();
+            let remedy = format!("add the other end as {form}, such as {example}");
             reader.missing(view, key, remedy);
             None
         }
     });
     let ([mut low, mut high], field) = ([ends[0]?, ends[1]?], reader.get(view, "to")?);
-    if low[0] > high[0] {
+    if low.0 > high.0 {
         (low, high) = (high, low);
     }
     if low == high {
         *reader.bad(&field, "is the joint at which it begins") = Some("name another joint".into());
         return None;
     }
-    if low[0] == high[0] {
+    if low.0 == high.0 {
         *reader.bad(
             &field,
-            format!("is at floor {} as well, whose beams join both", low[0]),
+            format!("is at floor {} as well, whose beams join both", low.0),
         ) = Some("name a joint of another floor".into());
         return None;
     }
-    let (from, to) = (low[1], high[1]);
+    let ([x, y], [to_x, to_y]) = (low.1, high.1);
+    // Along the line on which it lies; one that lies on none, along x from its lower end.
+    let along = match x == to_x && y != to_y {
+        true => PlanAxis::Y,
+        false => PlanAxis::X,
+    };
+    let ([from, to], [own, other]) = match along {
+        PlanAxis::X => ([x, to_x], [y, to_y]),
+        PlanAxis::Y => ([y, to_y], [x, to_x]),
+    };
+    let line = GridLine {
+        along,
+        number: own + 1,
+    };
     Some(Some(DiagonalPlace {
         kind: DiagonalKind::Brace,
-        line: None,
-        storey: low[0] + 1,
+        line: matches!(bays.widths, Widths::OfGrid(_)).then_some(line),
+        storey: low.0 + 1,
         bay: from.min(to) + 1,
         rise: if from <= to { Rise::Right } else { Rise::Left },
         reach: Reach {
-            storeys: high[0] - low[0],
+            storeys: high.0 - low.0,
             bays: from.abs_diff(to),
+            across: other as isize - own as isize,
         },
         strut: StrutLine::Central,
     }))
 }
 
-/// A joint by `"FLOOR.LINE"`: its floor, 0 for the ground, and its line from 0.
-fn joint(
-    reader: &mut Reader<'_>,
-    field: &Field<'_>,
-    spans: usize,
-    bays: Bays<'_>,
-) -> Option<[usize; 2]> {
+/// A joint by `"FLOOR.LINE"`, or `"FLOOR.X.Y"` in a grid.
+fn joint(reader: &mut Reader<'_>, field: &Field<'_>, bays: Bays<'_>) -> Option<Joint> {
     let text = reader.text(field)?;
-    let floors = bays.heights.len();
-    let numbers = text.split_once('.');
-    let numbers = numbers.and_then(|(floor, line)| {
-        Some([
-            floor.trim().parse().ok()?,
-            line.trim().parse::<usize>().ok()?,
-        ])
-    });
-    let Some([floor, line]) =
-        numbers.filter(|[floor, line]| *floor <= floors && (1..=spans + 1).contains(line))
-    else {
+    let (floors, lines) = (bays.heights.len(), bays.lines());
+    let numbers = text.split('.').map(|number| number.trim().parse().ok());
+    let numbers: Option<Vec<usize>> = numbers.collect();
+    let named = match (bays.widths, numbers.as_deref()) {
+        (Widths::OfFrame(_), Some(&[floor, line])) => Some((floor, [line, 1])),
+        (Widths::OfGrid(_), Some(&[floor, x, y])) => Some((floor, [x, y])),
+        _ => None,
+    };
+    let exists = |(floor, at): &Joint| {
+        let mut both = at.iter().zip(lines);
+        *floor <= floors && both.all(|(line, most)| (1..=most).contains(line))
+    };
+    let Some((floor, at)) = named.filter(exists) else {
+        let [form, example] = bays.words();
+        let [x, y] = lines;
+        let columns = match bays.widths {
+            Widths::OfFrame(_) => format!("column lines from 1 to {x}"),
+            Widths::OfGrid(_) => {
+                format!("lines of lines_x from 1 to {x} and of lines_y from 1 to {y}")
+            }
+        };
         *reader.bad(field, format!("\"{text}\" is no joint of the frame")) = Some(format!(
-            "write FLOOR.LINE, such as \"0.1\": floors from 0, the ground, to {floors}, column lines from 1 to {}",
-            spans + 1
+            "write {form}, such as {example}: floors from 0, the ground, to {floors}, {columns}"
         ));
         return None;
     };
-    let at = [floor, line - 1];
-    if (bays.has_joint)(at) {
-        return Some(at);
+    let joint = (floor, at.map(|line| line - 1));
+    if (bays.has_joint)(joint) {
+        return Some(joint);
     }
-    let Widths::OfFrame(widths) = bays.widths else {
-        return None;
+    let place = |(floor, at): Joint| {
+        let [x, y] = bays.at(at);
+        [x, y, bays.heights[..floor].iter().sum()]
     };
-    let place = |[floor, line]: [usize; 2]| {
-        let (along, up): (f64, f64) = (
-            widths[..line].iter().sum(),
-            bays.heights[..floor].iter().sum(),
-        );
-        [along, up]
+    let [x, y, height] = place(joint);
+    let away = |other: &Joint| {
+        let [a, b, c] = place(*other);
+        libm::hypot(libm::hypot(a - x, b - y), c - height)
     };
-    let [x, y] = place(at);
-    let away = |other: &[usize; 2]| {
-        let [a, b] = place(*other);
-        libm::hypot(a - x, b - y)
+    let crossings = |floor| {
+        let across = move |y| (0..lines[0]).map(move |x| (floor, [x, y]));
+        (0..lines[1]).flat_map(across)
     };
-    let all = (0..=floors).flat_map(|floor| (0..=spans).map(move |line| [floor, line]));
-    let joints = all.filter(|other| (bays.has_joint)(*other));
+    let joints = (0..=floors).flat_map(crossings);
+    let joints = joints.filter(|other| (bays.has_joint)(*other));
     let nearest = joints.min_by(|a, b| away(a).total_cmp(&away(b)));
     *reader.bad(
         field,
         format!("\"{text}\" has no joint, as no column ends there"),
-    ) = nearest.map(|[floor, line]| format!("the nearest joint is \"{floor}.{}\"", line + 1));
+    ) = nearest.map(|(floor, [x, y])| match bays.widths {
+        Widths::OfFrame(_) => format!("the nearest joint is \"{floor}.{}\"", x + 1),
+        Widths::OfGrid(_) => format!("the nearest joint is \"{floor}.{}.{}\"", x + 1, y + 1),
+    });
     None
 }
 

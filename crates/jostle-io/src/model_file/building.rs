@@ -11,8 +11,8 @@ use super::damper::{self, Damper};
 use super::places::is_by_place;
 use super::reinforced::{self, ReinforcedInPlan, ReinforcedMember};
 use super::{
-    codes, frame, given, given_in_plan, hinges, isolation, joint, plan, rotation_limits, shear,
-    shear_failure, soil, soil_spring,
+    codes, frame, given, given_in_plan, hinges, isolation, joint, plan, plan_frames,
+    rotation_limits, shear, shear_failure, soil, soil_spring,
 };
 use crate::files::Files;
 use crate::keys::{BUILDING_KINDS, Section};
@@ -287,7 +287,20 @@ fn read(
             let firm = on_firm_ground(&building);
             let here = (reader.count_faults() == noted && is_sound(&firm))
                 .then(|| reinforced::members_in_plan(index, &firm, &bars_in_plan));
-            members.extend(sound_members(reader, &view, here).unwrap_or_default());
+            let here = sound_members(reader, &view, here);
+            if let Structure::Tiers(tiers) = &mut building.structure {
+                let (frames, here) = (&mut tiers.frames, here.as_deref());
+                if kind == Kind::FramesInPlan {
+                    plan_frames::read_shear_failure(reader, &view, frames, here);
+                } else if let Some(frame) = &mut tiers.space_frame
+                    && let Some(field) = reader.get(&view, "shear_failure")
+                {
+                    let heights = &tiers.storey_heights;
+                    let read = shear_failure::read_in_space(reader, &field, frame, heights, here);
+                    frame.shear = read.unwrap_or_default();
+                }
+            }
+            members.extend(here.unwrap_or_default());
             None
         }
         Structure::Given(_) => None,
@@ -303,7 +316,7 @@ fn read(
             let hinges = joint::with_hinge(reader, &view, frame, hinges);
             let failing = reader
                 .get(&view, "shear_failure")
-                .map(|field| shear_failure::read(reader, &field, frame, here.as_deref()));
+                .map(|field| shear_failure::read(reader, &field, frame, "", here.as_deref()));
             members.extend(here.unwrap_or_default());
             match failing.flatten() {
                 Some(shear) => {

@@ -166,12 +166,23 @@ fn read_members(
                 .lines()
                 .map(|line| Some(column(line)?.flexural_rigidity))
         },
-        has_joint: &|[floor, line]| frame.has_joint(floor, line),
+        has_joint: &|(floor, [line, _])| frame.has_joint(floor, line),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);
-    diagonals.extend(infill::read_all(reader, view, bays));
+    let (struts, panels) = infill::read_all(reader, view, bays);
+    diagonals.extend(struts);
     frame.diagonals = diagonals;
+    // Half a panel hangs on the floor above, half stands on the one below; what stands on the ground does not move with the building.
+    for (place, mass) in panels {
+        for floor in place
+            .floors()
+            .into_iter()
+            .filter_map(|floor| floor.checked_sub(1))
+        {
+            frame.floor_mass[floor] += 0.5 * mass;
+        }
+    }
     // Columns on foundations keep their length unless asked, and columns that shorten need their EA. Coupled walls do by their axial
     // forces.
     let shortens = (frame.tallness() > 1.0 || !frame.walls.is_empty())

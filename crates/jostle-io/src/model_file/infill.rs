@@ -15,14 +15,22 @@ use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::tree::Value;
 
-/// Reads the panels of a frame.
-pub(super) fn read_all(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> Vec<Diagonal> {
-    let mut struts = Vec::new();
+/// The bay of a panel, and its mass \[kg\].
+pub(super) type PanelMass = (DiagonalPlace, f64);
+
+/// Reads the panels of a frame: their struts, and the masses of those that have one.
+pub(super) fn read_all(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    bays: Bays<'_>,
+) -> (Vec<Diagonal>, Vec<PanelMass>) {
+    let (mut struts, mut masses) = (Vec::new(), Vec::new());
     for entry in tables(reader, view, "infill") {
-        let found = read(reader, &entry, bays);
-        add(reader, &entry, found.unwrap_or_default(), &mut struts);
+        let (found, own_masses) = read(reader, &entry, bays).unwrap_or_default();
+        add(reader, &entry, found, &mut struts);
+        masses.extend(own_masses);
     }
-    struts
+    (struts, masses)
 }
 
 /// What a table says of the masonry, the same in every bay that it names.
@@ -45,13 +53,26 @@ enum Strength {
     Sliding { sliding: f64, vertical_stress: f64 },
 }
 
-fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Vec<Diagonal>> {
+/// What a table says of the mass of every panel.
+enum Mass {
+    Each(f64),
+    /// \[kg/m²\]
+    Surface(f64),
+}
+
+/// Struts and masses of the panels of a table; `None` after a fault.
+fn read(
+    reader: &mut Reader<'_>,
+    entry: &Field<'_>,
+    bays: Bays<'_>,
+) -> Option<(Vec<Diagonal>, Vec<PanelMass>)> {
     let view = reader.open(entry, bays.sections(DiagonalKind::Infill))?;
     let noted = reader.count_faults();
     let stiffness = reader
         .get(&view, "stiffness")
         .map(|field| reader.positive(&field, Dimension::Stiffness));
-    let left = opening(reader, &view);
+    let opening = opening(reader, &view);
+    let mass = mass(reader, &view);
     let strength = strength(reader, &view);
     let wall = match stiffness {
         Some(_) => {
@@ -67,7 +88,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     refuse_without_strength(reader, &view, strength.is_some());
     let across = out_of_plane::read(reader, &view);
     let parallel = PanelStruts::read(reader, &view);
-    let left = left?;
+    let (mass, Opening { left, open }) = (mass?, opening?);
     let hinge = reader.get(&view, "hinge");
     let panel = |wall: &Wall, place: DiagonalPlace| {
         let rigidity = (bays.column_rigidity)(place);
@@ -139,10 +160,48 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         }
     }
     let size = |place: DiagonalPlace| [bays.width(place), bays.heights[place.storey - 1]];
+    // Two struts are one panel.
+    let panels = struts.iter().map(|strut| strut.place);
+    let panels = panels.filter(|place| place.rise == Rise::Right);
+    let masses = mass.iter().flat_map(|mass| {
+        let of_panel = |place: DiagonalPlace| match mass {
+            Mass::Each(mass) => *mass,
+            Mass::Surface(surface) => {
+                let [width, height] = size(place);
+                surface * width * height * (1.0 - open)
+            }
+        };
+        panels.clone().map(move |place| (place, of_panel(place)))
+    });
+    let masses: Vec<PanelMass> = masses.collect();
     let struts = struts.into_iter();
     let struts = struts.flat_map(|strut| parallel.of_panel(strut, size(strut.place)));
     let struts = struts.collect();
-    (reader.count_faults() == noted).then_some(struts)
+    (reader.count_faults() == noted).then_some((struts, masses))
+}
+
+/// Mass of every panel; nothing inside without it, and `None` after a fault.
+fn mass(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Mass>> {
+    match (reader.get(view, "mass"), reader.get(view, "density")) {
+        (Some(_), Some(density)) => {
+            *reader.bad(&density, "and mass are both given") = Some("leave out one of them".into());
+            None
+        }
+        (Some(mass), None) => Some(Some(Mass::Each(reader.positive(&mass, Dimension::Mass)?))),
+        (None, Some(density)) => {
+            let own = reader.positive(&density, Dimension::Density);
+            let Some(field) = reader.get(view, "thickness") else {
+                *reader.bad(&density, "needs the thickness of the panel") = Some(
+                    "add thickness = \"200 mm\" with modulus and width; or mass = \"3 t\", that of one panel, instead".into(),
+                );
+                return None;
+            };
+            // Its faults are noted where the strut is read.
+            let thickness = reader.quietly(|reader| reader.positive(&field, Dimension::Length));
+            Some(Some(Mass::Surface(own? * thickness?)))
+        }
+        (None, None) => Some(None),
+    }
 }
 
 /// Yielding as a table of corners says.
@@ -237,12 +296,22 @@ fn refuse_without_strength(reader: &mut Reader<'_>, view: &View<'_>, has_strengt
     }
 }
 
-/// What openings leave of stiffness and strength.
-fn opening(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
+/// Openings of a panel.
+struct Opening {
+    /// What they leave of stiffness and strength \[–\].
+    left: f64,
+    /// Their share of the area, as far as it is stated \[–\].
+    open: f64,
+}
+
+fn opening(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Opening> {
     let Some(field) = reader.get(view, "opening") else {
-        return Some(1.0);
+        return Some(Opening {
+            left: 1.0,
+            open: 0.0,
+        });
     };
-    let left = if matches!(field.node.value, Value::Table(_)) {
+    let (left, open) = if matches!(field.node.value, Value::Table(_)) {
         let opened = reader.open(&field, &[Section::InfillOpening])?;
         let [length, area] = ["length", "area"].map(|key| {
             let Some(field) = reader.get(&opened, key) else {
@@ -255,12 +324,12 @@ fn opening(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
             };
             share_of(reader, &field)
         });
-        left_by_area(area?, length?)
+        (left_by_area(area?, length?), area?)
     } else {
-        left_by_length(share_of(reader, &field)?)
+        (left_by_length(share_of(reader, &field)?), 0.0)
     };
     if left > 0.0 {
-        return Some(left);
+        return Some(Opening { left, open });
     }
     *reader.bad(&field, "leaves no strut in the panel") =
         Some("leave the panel out where openings take two thirds of its length or more".into());

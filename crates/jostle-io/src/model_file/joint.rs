@@ -1,6 +1,7 @@
 //! `joint`: semi-rigid connections between the ends of beams and columns.
 
-use jostle::{Frame, FrameHinges, Hinges, Joint};
+use jostle::hysteresis::Hysteresis;
+use jostle::{Frame, FrameHinges, Hinges, Joint, SpaceFrame, SpacePlace};
 
 use super::building::or_rigid;
 use super::hinges;
@@ -68,4 +69,67 @@ pub(super) fn with_hinge(
     }
     all.beams = vec![vec![spring?; frame.spans.len()]; frame.storey_heights.len()];
     Some(Hinges::Frame(all))
+}
+
+/// Lets the connections of the beams of a space frame yield in their vertical planes.
+pub(super) fn read_in_space(reader: &mut Reader<'_>, view: &View<'_>, frame: &mut SpaceFrame) {
+    const OF_BEAMS: [&str; 2] = ["x", "y"];
+    let Some(field) = reader.get(view, "joint") else {
+        return;
+    };
+    let Some(joint) = reader.open(&field, &[Section::BeamJoint, Section::SpaceJoint]) else {
+        return;
+    };
+    let springs = if OF_BEAMS.iter().any(|key| joint.has(key)) {
+        for key in ["rotational_stiffness", "hinge"] {
+            if let Some(stated) = reader.get(&joint, key) {
+                *reader.bad(&stated, "cannot be combined with x and y") =
+                    Some(format!("move {key} into x and y, or remove these"));
+                return;
+            }
+        }
+        OF_BEAMS.map(|key| {
+            let field = reader.get(&joint, key)?;
+            let along = reader.open(&field, &[Section::BeamJoint])?;
+            connection(reader, &along)
+        })
+    } else {
+        [connection(reader, &joint); 2]
+    };
+    for member in &mut frame.members {
+        let spring = match member.place {
+            SpacePlace::Column { .. } => continue,
+            SpacePlace::BeamX { .. } => springs[0],
+            SpacePlace::BeamY { .. } => springs[1],
+        };
+        if spring.is_some() && member.may_yield() {
+            *reader.bad(&field, "stands where beams have hinges already") =
+                Some("keep either joint or the hinges of beams".into());
+            return;
+        }
+        member.hinges[0] = member.hinges[0].or(spring);
+    }
+}
+
+/// The spring of connections that yield.
+fn connection(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Hysteresis> {
+    let stiffness = or_rigid(
+        reader,
+        view,
+        "rotational_stiffness",
+        Dimension::RotationalStiffness,
+    );
+    if !view.has("rotational_stiffness") {
+        let remedy =
+            "add rotational_stiffness = \"40 MN.m/rad\", that of the connection before it yields";
+        reader.missing(view, "rotational_stiffness", remedy);
+        return None;
+    }
+    let Some(field) = reader.get(view, "hinge") else {
+        let remedy = "add hinge = { rule = \"bilinear\", yield = \"180 kN.m\", post_yield = 0.03 }: elastic connections are for plane frames";
+        reader.missing(view, "hinge", remedy);
+        return None;
+    };
+    let sections = &[Section::BaseRocking];
+    hinges::read_spring(reader, &field, sections, stiffness, Dimension::Moment)
 }

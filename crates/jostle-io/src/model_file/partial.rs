@@ -1,15 +1,42 @@
-//! Neighbours whose floors match in part.
+//! Neighbours whose floors match in part, and slabs that meet no column.
 
-use jostle::{Building, Model, Structure, UnmatchedFloors, floor_and_height};
+use jostle::{Building, Model, Structure, UnmatchedFloors, UnmetColumns, floor_and_height};
 
 /// One warning for every pair of neighbours with floors that `"common"` omits although they lie beside the other
-/// building.
+/// building, and for slabs that meet no column although `"all"` asks for it.
 pub(super) fn warnings(model: &Model) -> Vec<String> {
     let unmatched = model.unmatched_floors();
-    unmatched
+    let unmatched = unmatched.iter();
+    let unmet = model.unmet_columns();
+    let unmet = unmet
         .iter()
+        .filter_map(|found| without_column(model, found));
+    unmatched
         .filter_map(|found| warning(model, found))
+        .chain(unmet)
         .collect()
+}
+
+fn without_column(model: &Model, found: &UnmetColumns) -> Option<String> {
+    let [slabs, columns] = found.between.map(|index| model.buildings.get(index));
+    let (slabs, columns, gap) = (slabs?, columns?, model.gaps.get(found.gap)?);
+    let named = floors(slabs, &found.floors)?;
+    let (first, last) = (found.heights.first()?, found.heights.last()?);
+    let (meet, heights) = match found.floors.len() {
+        1 => ("meets", format!("at {first:.3} m")),
+        _ => ("meet", format!("from {first:.3} m to {last:.3} m")),
+    };
+    let why = match found.behind {
+        true => format!(
+            "its columns stand farther than reach = {} m behind the edge of its plan. Raise reach, or give the plan up to the columns",
+            gap.in_plan.reach
+        ),
+        false => "none of its columns stands within the common width of both buildings. Check at, plan and the grid lines; what stands there instead, such as a wall or the edge of a floor between, has to be modelled".to_owned(),
+    };
+    Some(format!(
+        "gap[{}].floors: {named}, {heights}, {meet} no column of \"{}\", so that there is no contact with it: {why}",
+        found.gap, columns.name
+    ))
 }
 
 fn warning(model: &Model, found: &UnmatchedFloors) -> Option<String> {

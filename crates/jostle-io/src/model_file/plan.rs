@@ -96,7 +96,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
     let centre = reader
         .get(view, "mass_centre")
         .and_then(|field| pairs(reader, &field, count));
-    let floors: Vec<Tier> = plans
+    let mut floors: Vec<Tier> = plans
         .iter()
         .enumerate()
         .map(|(floor, plan)| {
@@ -167,7 +167,17 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
     let (frames, of_frames) = frames.into_iter().unzip();
     let space_frame =
         grid.map(|grid| space_frame::read(reader, view, grid, &plans, &storey_heights));
-    let (space_frame, of_members) = space_frame.unzip();
+    let (space_frame, of_members) = match space_frame {
+        Some(read) => {
+            for (index, floor) in floors.iter_mut().enumerate() {
+                let panels = read.panels.iter().filter(|(at, _)| *at == index);
+                let panels: Vec<_> = panels.map(|(_, mass)| *mass).collect();
+                *floor = floor.with_masses(&panels);
+            }
+            (Some(read.frame), Some(read.sections))
+        }
+        None => (None, None),
+    };
     Planned {
         tiers: Tiers {
             floors,

@@ -7,7 +7,8 @@ use super::frame;
 use super::hinges;
 use super::joint;
 use super::plan::pair;
-use super::reinforced::{self, Reinforced};
+use super::reinforced::{self, Reinforced, ReinforcedMember};
+use super::shear_failure;
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -47,6 +48,37 @@ pub(super) fn read_all(
         }
     }
     frames
+}
+
+/// Reads the shear failure of the columns of frames, whose reinforced members are known now; `None` after faults elsewhere.
+pub(super) fn read_shear_failure(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    frames: &mut [PlanFrame],
+    members: Option<&[ReinforcedMember]>,
+) {
+    let entries = reader.get(view, "frame").and_then(|field| field.entries());
+    let mut frames = frames.iter_mut();
+    for entry in entries.unwrap_or_default() {
+        let Some(view) = reader.reopen(&entry, &[Section::PlanFrame]) else {
+            continue;
+        };
+        let places = reader.get(&view, "at");
+        let places = places.map(|field| reader.quietly(|reader| read_places(reader, &field)));
+        let failure = reader.get(&view, "shear_failure");
+        for frame in frames
+            .by_ref()
+            .take(places.map_or(0, |places| places.len()))
+        {
+            let Some(field) = &failure else { continue };
+            let prefix = format!("{}.", frame.name);
+            // A fault of one is that of all.
+            match shear_failure::read(reader, field, &frame.frame, &prefix, members) {
+                Some(shear) => frame.hinges.shear = shear,
+                None => return,
+            }
+        }
+    }
 }
 
 /// One frame, or equal ones at several places.

@@ -1,10 +1,13 @@
 //! `shear_failure`: columns that fail in shear.
 
+use std::collections::BTreeMap;
+
 use jostle::hysteresis::{FallingBranch, Hysteresis, SpringFault};
 use jostle::model::CapacityLine;
-use jostle::{Frame, Hinges, Model, ShearEnds, ShearSpring, Structure};
+use jostle::{
+    Frame, Hinges, Model, PlanAxis, ShearEnds, ShearSpring, SpaceFrame, SpacePlace, Structure,
+};
 use jostle_section::capacity::{RatedMember, ShearRule};
-use jostle_section::formula::Member;
 
 use super::building::per_storey;
 use super::frame_members::filled;
@@ -19,16 +22,113 @@ const RIGID: f64 = 1e4;
 /// What a user can do about a column that loses its axial load before it fails in shear.
 const AXIAL_FIRST_REMEDY: &str = "add axial_first = \"axial-limit\": such columns lose their shear from their strength to the drift at axial failure; or slope = \"8 MN/m\" for all columns";
 
-/// Reads the shear springs of all columns by storey and line; `None` after a fault. `members`: the reinforced members of the
-/// building, `None` after faults elsewhere.
+/// A column that can fail, in one plane in which it bends.
+struct FailingColumn {
+    /// In words.
+    words: String,
+    /// Its name among reinforced members.
+    name: String,
+    /// Counted from 0.
+    storey: usize,
+    /// Of the storey \[m\].
+    length: f64,
+    /// E I in that plane \[N·m²\].
+    rigidity: f64,
+    /// GA_s there, where shear deforms it \[N\].
+    shear_rigidity: Option<f64>,
+    /// Whether that is the plane across, of a space frame.
+    is_across: bool,
+}
+
+/// Reads the shear springs of all columns of a plane frame by storey and line; `None` after a fault. `members`: the reinforced members of
+/// the building, `None` after faults elsewhere; their names begin with `prefix`.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     frame: &Frame,
+    prefix: &str,
     members: Option<&[ReinforcedMember]>,
 ) -> Option<Vec<Vec<ShearSpring>>> {
-    let view = reader.open(field, &[Section::ShearFailure])?;
+    let all = frame.all_columns();
+    let columns = all.map(|([storey, line], section)| FailingColumn {
+        words: format!("column {} of storey {}", line + 1, storey + 1),
+        name: format!("{prefix}column.{}.{}", line + 1, storey + 1),
+        storey,
+        length: frame.storey_heights[storey],
+        rigidity: section.flexural_rigidity,
+        shear_rigidity: section.shear_rigidity,
+        is_across: false,
+    });
+    let columns: Vec<FailingColumn> = columns.collect();
     let storeys = frame.storey_heights.len();
+    let springs = springs_of(
+        reader,
+        field,
+        &columns,
+        storeys,
+        members,
+        !prefix.is_empty(),
+    )?;
+    let mut rows = vec![vec![None; frame.lines()]; storeys];
+    for (([storey, line], _), spring) in frame.all_columns().zip(springs) {
+        rows[storey][line] = Some(spring);
+    }
+    Some(filled(rows))
+}
+
+/// Reads those of a space frame, in both planes of every column that is not a wall.
+pub(super) fn read_in_space(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    frame: &SpaceFrame,
+    storey_heights: &[f64],
+    members: Option<&[ReinforcedMember]>,
+) -> Option<BTreeMap<(SpacePlace, PlanAxis), ShearSpring>> {
+    let is_column = |place: SpacePlace| {
+        matches!(place, SpacePlace::Column { .. })
+            && !frame.walls.iter().any(|wall| wall.has(place))
+    };
+    let standing = frame
+        .members
+        .iter()
+        .filter(|member| is_column(member.place));
+    let both = standing.flat_map(|member| PlanAxis::BOTH.map(|axis| (member, axis)));
+    let both: Vec<_> = both.collect();
+    let columns = both.iter().map(|(member, axis)| {
+        let ([[x, y], _], storey) = (member.place.crossings(), member.place.storey());
+        let section = &member.section;
+        FailingColumn {
+            words: format!(
+                "the column at x = {}, y = {} of storey {}",
+                x + 1,
+                y + 1,
+                storey + 1
+            ),
+            name: member.place.to_string(),
+            storey,
+            length: storey_heights[storey],
+            rigidity: section.flexural_rigidity[axis.index()],
+            shear_rigidity: section.shear_rigidity.map(|both| both[axis.index()]),
+            is_across: *axis == PlanAxis::Y,
+        }
+    });
+    let columns: Vec<FailingColumn> = columns.collect();
+    let springs = springs_of(reader, field, &columns, storey_heights.len(), members, true)?;
+    let places = both.iter().map(|(member, axis)| (member.place, *axis));
+    Some(places.zip(springs).collect())
+}
+
+/// The shear springs of these columns, in their order. `in_plan`: whether they have no mass between floors, so that their shear is the same
+/// at both ends unless a neighbour hits them.
+fn springs_of(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    columns: &[FailingColumn],
+    storeys: usize,
+    members: Option<&[ReinforcedMember]>,
+    in_plan: bool,
+) -> Option<Vec<ShearSpring>> {
+    let view = reader.open(field, &[Section::ShearFailure])?;
     let mut list = |key, dimension| {
         let field = reader.get(&view, key)?;
         Some(positive_per_storey(reader, &field, dimension, storeys))
@@ -52,6 +152,12 @@ pub(super) fn read(
         None => 0.0,
     };
     let ends = match reader.get(&view, "ends") {
+        Some(field) if in_plan => {
+            *reader.bad(&field, "is for frames without a plan") = Some(
+                "leave it out: columns fail at their feet, and at their heads too where neighbours can hit them between floors".into(),
+            );
+            return None;
+        }
         Some(field) => match reader.choice(&field, SHEAR_ENDS, &[])? {
             "both" => ShearEnds::Both,
             _ => ShearEnds::Foot,
@@ -83,7 +189,7 @@ pub(super) fn read(
             by_rule(
                 reader,
                 &field,
-                frame,
+                columns,
                 ShearRule::from_name(name)?,
                 slope.as_deref(),
                 to_axial_limit,
@@ -100,14 +206,12 @@ pub(super) fn read(
                 return None;
             };
             let (strength, slope) = (strength?, slope?);
-            let stated = strength.iter().zip(slope).map(|(strength, slope)| Loss {
-                strength: *strength,
-                fall: Fall::Slope(slope),
+            let stated = columns.iter().map(|column| Loss {
+                strength: strength[column.storey],
+                fall: Fall::Slope(slope[column.storey]),
                 by_ductility: CapacityLine::default(),
             });
-            stated
-                .map(|loss| vec![loss; frame.spans.len() + 1])
-                .collect()
+            stated.collect()
         }
         (None, None) => {
             reader.missing(
@@ -118,7 +222,7 @@ pub(super) fn read(
             return None;
         }
     };
-    springs(reader, field, frame, &losses, residual, ends)
+    springs(reader, field, columns, losses, residual, ends)
 }
 
 /// Strength of a column and how it is lost.
@@ -157,43 +261,38 @@ fn positive_per_storey(
 fn by_rule(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    frame: &Frame,
+    columns: &[FailingColumn],
     rule: ShearRule,
     slope: Option<&[f64]>,
     to_axial_limit: bool,
     members: &[ReinforcedMember],
-) -> Option<Vec<Vec<Loss>>> {
-    let columns: Vec<_> = members
-        .iter()
-        .filter(|member| member.member == Member::Column)
-        .collect();
-    let storeys = frame.storey_heights.len();
-    let per_storey = frame.spans.len() + 1;
-    if columns.len() != frame.all_columns().count()
-        || columns.iter().any(|column| column.section.ties.is_none())
-    {
-        *reader.bad(field, "needs bars and ties of every column") = Some(
-            "add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 150 mm\" to column, or give strength and slope instead of rule"
-                .into(),
-        );
-        return None;
-    }
-    let mut rows: Vec<Vec<Option<Loss>>> = vec![vec![None; per_storey]; storeys];
-    for column in columns {
+) -> Option<Vec<Loss>> {
+    let mut losses = Vec::with_capacity(columns.len());
+    for own in columns {
+        let mut members = members.iter();
+        let column = members.find(|member| member.name == own.name);
+        let Some(column) = column.filter(|column| column.section.ties.is_some()) else {
+            *reader.bad(field, "needs bars and ties of every column") = Some(
+                "add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 150 mm\" to column, or give strength and slope instead of rule"
+                    .into(),
+            );
+            return None;
+        };
+        let turned = own.is_across.then(|| column.section.turned());
+        let clear_length = match own.is_across {
+            true => column.clear_length_across.unwrap_or(column.clear_length),
+            false => column.clear_length,
+        };
         let rated = RatedMember {
-            section: &column.section,
+            section: turned.as_ref().unwrap_or(&column.section),
             member: column.member,
-            clear_length: column.clear_length,
+            clear_length,
             level: column.level,
         };
-        let loss = rated.shear_loss(rule, column.compression);
-        let storey = column.floor - 1;
         let mut refused = |problem: String, remedy: &str| {
-            let (line, storey) = (column.place, column.floor);
-            let problem = format!("column {line} of storey {storey}: {problem}");
-            *reader.bad(field, problem) = Some(remedy.into());
+            *reader.bad(field, format!("{}: {problem}", own.words)) = Some(remedy.into());
         };
-        let loss = match loss {
+        let loss = match rated.shear_loss(rule, column.compression) {
             Ok(loss) => loss,
             Err(problem) => {
                 refused(
@@ -204,11 +303,11 @@ fn by_rule(
             }
         };
         let fall = match (
-            slope.map(|slope| slope[storey]).or(loss.slope),
+            slope.map(|slope| slope[own.storey]).or(loss.slope),
             to_axial_limit,
         ) {
             (Some(slope), _) => Fall::Slope(slope),
-            (None, true) => Fall::To(loss.axial_failure_drift * column.clear_length),
+            (None, true) => Fall::To(loss.axial_failure_drift * clear_length),
             (None, false) => {
                 let problem = format!(
                     "under {} kN it loses its axial load at a drift of {:.2} %, before shear failure at {:.2} %, so that Elwood and Moehle give no slope",
@@ -220,13 +319,13 @@ fn by_rule(
                 return None;
             }
         };
-        rows[storey][column.place - 1] = Some(Loss {
+        losses.push(Loss {
             strength: loss.strength,
             fall,
             by_ductility: loss.by_ductility,
         });
     }
-    Some(filled(rows))
+    Some(losses)
 }
 
 /// The springs: the column and its spring together lose shear with the given slope while the column unloads,
@@ -234,61 +333,53 @@ fn by_rule(
 fn springs(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    frame: &Frame,
-    losses: &[Vec<Loss>],
+    columns: &[FailingColumn],
+    losses: Vec<Loss>,
     residual: f64,
     ends: ShearEnds,
-) -> Option<Vec<Vec<ShearSpring>>> {
-    let mut rows = Vec::with_capacity(losses.len());
-    for (storey, row) in losses.iter().enumerate() {
-        let length = frame.storey_heights[storey];
-        let mut springs = Vec::with_capacity(row.len());
-        for (line, loss) in row.iter().enumerate() {
-            // Where there is no column, its spring has no part.
-            let column = frame.column(storey, line).or(frame.columns.get(storey))?;
-            let rigidity = column.flexural_rigidity;
-            let shear = column
-                .shear_rigidity
-                .map_or(0.0, |shear| 12.0 * rigidity / (shear * length * length));
-            let stiffness = 12.0 * rigidity / (length * length * length * (1.0 + shear));
-            let reached = loss.strength / stiffness;
-            let lost = match loss.fall {
-                Fall::Slope(slope) => 1.0 / slope,
-                Fall::To(end) => (end - reached) / loss.strength,
-            };
-            if lost <= 0.0 {
-                let problem = format!(
-                    "column {} of storey {} reaches its shear strength at a drift of {:.2} %, beyond its axial limit",
-                    line + 1,
-                    storey + 1,
-                    100.0 * reached / length
-                );
-                *reader.bad(field, problem) =
-                    Some("it loses its axial load before it can fail in shear: reduce its axial_load, or give slope".into());
+) -> Option<Vec<ShearSpring>> {
+    let mut springs = Vec::with_capacity(losses.len());
+    for (column, loss) in columns.iter().zip(losses) {
+        let (length, rigidity) = (column.length, column.rigidity);
+        let shear = column
+            .shear_rigidity
+            .map_or(0.0, |shear| 12.0 * rigidity / (shear * length * length));
+        let stiffness = 12.0 * rigidity / (length * length * length * (1.0 + shear));
+        let reached = loss.strength / stiffness;
+        let lost = match loss.fall {
+            Fall::Slope(slope) => 1.0 / slope,
+            Fall::To(end) => (end - reached) / loss.strength,
+        };
+        if lost <= 0.0 {
+            let problem = format!(
+                "{} reaches its shear strength at a drift of {:.2} %, beyond its axial limit",
+                column.words,
+                100.0 * reached / length
+            );
+            *reader.bad(field, problem) =
+                Some("it loses its axial load before it can fail in shear: reduce its axial_load, or give slope".into());
+            return None;
+        }
+        let falling = FallingBranch {
+            slope: 1.0 / (lost + 1.0 / stiffness),
+            residual: residual * loss.strength,
+        };
+        match Hysteresis::failing(RIGID * stiffness, loss.strength, falling) {
+            Ok(spring) => springs.push(ShearSpring {
+                spring,
+                ends,
+                by_ductility: loss.by_ductility,
+            }),
+            Err(faults) => {
+                let problem = faults
+                    .first()
+                    .map_or("", |fault: &SpringFault| fault.problem.as_str());
+                reader.bad(field, problem.to_owned());
                 return None;
             }
-            let falling = FallingBranch {
-                slope: 1.0 / (lost + 1.0 / stiffness),
-                residual: residual * loss.strength,
-            };
-            match Hysteresis::failing(RIGID * stiffness, loss.strength, falling) {
-                Ok(spring) => springs.push(ShearSpring {
-                    spring,
-                    ends,
-                    by_ductility: loss.by_ductility.clone(),
-                }),
-                Err(faults) => {
-                    let problem = faults
-                        .first()
-                        .map_or("", |fault: &SpringFault| fault.problem.as_str());
-                    reader.bad(field, problem.to_owned());
-                    return None;
-                }
-            }
         }
-        rows.push(springs);
     }
-    Some(rows)
+    Some(springs)
 }
 
 /// Gives columns that neighbours can strike between floors a second spring, unless the file says where springs stand.
@@ -296,12 +387,32 @@ pub(super) fn add_heads(model: &mut Model, reader: &mut Reader<'_>, view: &View<
     let stated = |reader: &mut Reader<'_>, index: usize| {
         let buildings = reader.get(view, "building")?;
         let entry = buildings.entries()?.into_iter().nth(index)?;
-        let building_view = reader.reopen(&entry, &[Section::Building, Section::Frame])?;
+        let sections = &[Section::Building, Section::Frame];
+        let building_view = reader.reopen(&entry, sections)?;
         let failure = reader.get(&building_view, "shear_failure")?;
         let failure_view = reader.reopen(&failure, &[Section::ShearFailure])?;
         reader.get(&failure_view, "ends")
     };
     for index in 0..model.buildings.len() {
+        if let Structure::Tiers(tiers) = &model.buildings[index].structure
+            && let Some(frame) = &tiers.space_frame
+        {
+            if frame.shear.is_empty() {
+                continue;
+            }
+            let struck = model.columns_struck_between_floors(index);
+            let Structure::Tiers(tiers) = &mut model.buildings[index].structure else {
+                continue;
+            };
+            let shear = tiers
+                .space_frame
+                .iter_mut()
+                .flat_map(|frame| &mut frame.shear);
+            for (_, spring) in shear.filter(|((column, _), _)| struck.contains(column)) {
+                spring.ends = ShearEnds::Both;
+            }
+            continue;
+        }
         let fails = |hinges: &Hinges| matches!(hinges, Hinges::Frame(own) if !own.shear.is_empty());
         if !model.buildings[index].hinges.as_ref().is_some_and(fails)
             || stated(reader, index).is_some()

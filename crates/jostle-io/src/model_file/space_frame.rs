@@ -20,7 +20,7 @@ use super::section::{self, read_modulus, read_modulus_beside_bars};
 use super::slab::{self, OnSlab};
 use super::space_hinges::{Moments, SpaceHinges};
 use super::steel_profile;
-use super::{fibre_hinges, infill, rigid_ends, space_walls};
+use super::{fibre_hinges, infill, joint, rigid_ends, space_walls};
 use crate::keys::{AXIAL, SECTION_CONCRETES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -158,6 +158,13 @@ impl Sort {
     }
 }
 
+/// A space frame, the sections of its members that have bars, and the masses of its panels on floors from 0, each at a point of the site.
+pub(super) struct ReadFrame {
+    pub(super) frame: SpaceFrame,
+    pub(super) sections: BTreeMap<SpacePlace, ReadSection>,
+    pub(super) panels: Vec<(usize, (f64, PlanPoint))>,
+}
+
 /// Reads columns and beams, and the sections of those that have bars. `plans`: those of the floors in the axes of the grid; what lies
 /// outside of them does not exist.
 pub(super) fn read(
@@ -166,7 +173,7 @@ pub(super) fn read(
     grid: Grid,
     plans: &[Vec<PlanPoint>],
     storey_heights: &[f64],
-) -> (SpaceFrame, BTreeMap<SpacePlace, ReadSection>) {
+) -> ReadFrame {
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
     let shears = flexible_members(reader, view, "shear", Section::ShearDeformation, false);
@@ -239,7 +246,7 @@ pub(super) fn read(
     add_slabs(&slabs, &mut frame);
     frame.rigid_zones = rigid_ends::read_in_space(reader, view, &frame);
     space_walls::add_to(&walls, &mut frame);
-    add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
+    let panels = add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
     if let Some(hinges) = hinges {
         add_hinges(
             reader,
@@ -251,7 +258,12 @@ pub(super) fn read(
         );
         add_fibres(reader, view, &hinges, &sections, &mut frame, storey_heights);
     }
-    (frame, sections)
+    joint::read_in_space(reader, view, &mut frame);
+    ReadFrame {
+        frame,
+        sections,
+        panels,
+    }
 }
 
 /// Lets slabs bend with beams: a beam that none continues on its line is an end span.
@@ -295,7 +307,8 @@ fn add_slabs(slabs: &BTreeMap<SpacePlace, OnSlab>, frame: &mut SpaceFrame) {
     }
 }
 
-/// Adds braces and struts of infill panels.
+/// Adds braces and struts of infill panels; returns the masses of panels on floors. Half a panel hangs on the floor above, half stands on
+/// the one below, in equal parts at both joints; what stands on the ground does not move with the building.
 fn add_diagonals(
     reader: &mut Reader<'_>,
     view: &View<'_>,
@@ -303,7 +316,7 @@ fn add_diagonals(
     plans: &[Vec<PlanPoint>],
     storey_heights: &[f64],
     frame: &mut SpaceFrame,
-) {
+) -> Vec<(usize, (f64, PlanPoint))> {
     let widths = PlanAxis::BOTH.map(|along| frame.bays(along));
     let column_rigidity = |place: DiagonalPlace| {
         let axis = place.line.map_or(0, |line| line.along.index());
@@ -334,12 +347,22 @@ fn add_diagonals(
         heights: storey_heights,
         widths: Widths::OfGrid(&widths),
         column_rigidity: &column_rigidity,
-        has_joint: &|_| false,
+        has_joint: &|(floor, crossing)| frame.has_joint(floor, crossing),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);
-    diagonals.extend(infill::read_all(reader, view, bays));
+    let (struts, panels) = infill::read_all(reader, view, bays);
+    diagonals.extend(struts);
     frame.diagonals = diagonals;
+    let mut masses = Vec::new();
+    for (place, mass) in panels {
+        let floors = place.floors().into_iter();
+        for floor in floors.filter_map(|floor| floor.checked_sub(1)) {
+            let ends = place.crossings().into_iter().flatten();
+            masses.extend(ends.map(|crossing| (floor, (0.25 * mass, frame.point(crossing)))));
+        }
+    }
+    masses
 }
 
 /// Gives columns the fibres of their sections.

@@ -468,6 +468,57 @@ fn panels_are_damaged_by_drift() {
     }
 }
 
+/// Half of every panel on the floor above, half on that below, and none without the key.
+#[test]
+fn panels_have_mass_where_it_is_asked() {
+    let masses = |more: &str| {
+        let panel = "[[building.infill]]\nstoreys = [1, 2]\nbay = 1\nmodulus = \"4 GPa\"\nthickness = 0.2\nwidth = \"1 m\"\n";
+        let input = sound(&format!("{FRAME}{panel}{more}"));
+        match &input.model.buildings[0].structure {
+            Structure::Frame(frame) => frame.floor_mass.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let close = |found: Vec<f64>, due: [f64; 3]| {
+        let same = found
+            .iter()
+            .zip(due)
+            .all(|(found, due)| (found - due).abs() < 1e-9);
+        assert!(same && found.len() == 3, "{found:?}, not {due:?}");
+    };
+    close(masses(""), [0.0; 3]);
+    // 1400 kg/m³, 200 mm, 4 m, 3 m: 3360 kg.
+    close(masses("density = 1400\n"), [3360.0, 1680.0, 0.0]);
+    close(
+        masses("density = 1400\nopening = 0.2\n"),
+        [3360.0, 1680.0, 0.0],
+    );
+    close(
+        masses(
+            "density = 1400\nopening = { length = 0.2, area = 0.1 }\nstruts = 3\ncentral_share = 0.5\noffset = 0.3\n",
+        ),
+        [3024.0, 1512.0, 0.0],
+    );
+    close(masses("mass = \"2 t\"\n"), [2000.0, 1000.0, 0.0]);
+    for (more, problem) in [
+        (
+            "density = 1400\nmass = 2000\nstiffness = 8e7\n",
+            "density: and mass are both given",
+        ),
+        (
+            "density = 1400\nstiffness = 8e7\n",
+            "needs the thickness of the panel",
+        ),
+        (
+            "mass = 0\nstiffness = 8e7\n",
+            "mass: must be greater than zero",
+        ),
+    ] {
+        let said = refusal(&format!("{FRAME}[[building.infill]]\n{more}"));
+        assert!(said.contains(problem), "{problem}: {said}");
+    }
+}
+
 /// Between any two joints: from below, whichever is named first, with EA over the length between them.
 #[test]
 fn a_brace_joins_two_joints_by_name() {

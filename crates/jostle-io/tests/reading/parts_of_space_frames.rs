@@ -117,6 +117,240 @@ fn braces_stand_in_the_bays_that_are_named() {
     assert!(buckling(0) < buckling(1));
 }
 
+/// With floors = "all" a slab before the bay of the neighbour is not left without a contact in silence.
+#[test]
+fn a_slab_that_meets_no_column_is_told() {
+    let building = |name: &str, at: &str, lines_y: &str, heights: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nkind = \"space-frame\"\nat = {at}\nstorey_height = {heights}\nlines_x = [0, 6]\nlines_y = {lines_y}\nmass = \"60 t\"\nelastic_modulus = \"30 GPa\"\ncolumn = {{ size = [0.5, 0.4] }}\nbeam_x = {{ width = 0.3, depth = 0.5 }}\nbeam_y = {{ width = 0.3, depth = 0.5 }}\n"
+        )
+    };
+    let text = format!(
+        "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nfloors = \"all\"\nlaw = \"hertz\"\nstiffness = 2e9\n",
+        building("A", "[0, 0]", "[0, 5]", "[4, 3.6]"),
+        building("B", "[6.02, 1]", "[0, 3]", "[2.7, 3.4]")
+    );
+    let warnings = read(&text)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .warnings;
+    let told = warnings.iter().any(|warning| {
+        warning.contains(
+            "gap[0].floors: floors 1, 2 of \"B\", from 2.700 m to 6.100 m, meet no column of \"A\"",
+        ) && warning.contains("none of its columns stands within the common width")
+    });
+    assert!(told, "{warnings:?}");
+}
+
+/// Panels of 4 t on the first line: 4 t on floor 1 and 2 t on floor 2, at both joints, beside 90 t spread over the L.
+#[test]
+fn panels_have_mass_at_their_joints() {
+    let floors = |more: &str| {
+        let panel =
+            format!("infill = [{{ along = \"x\", x = 1, y = 1, stiffness = 8e7{more} }}]\n");
+        let input = read(&format!("{SPACE}{panel}")).unwrap_or_else(|error| panic!("{error}"));
+        match &input.model.buildings[0].structure {
+            Structure::Tiers(tiers) => tiers.floors.clone(),
+            other => panic!("no plan: {other:?}"),
+        }
+    };
+    let (plain, heavy) = (floors(""), floors(", mass = \"4 t\""));
+    for (panels, (plain, heavy)) in [4e3, 2e3].into_iter().zip(plain.iter().zip(&heavy)) {
+        assert_eq!(plain.mass, 90e3);
+        close(heavy.mass, 90e3 + panels, 1e5, 1e-14, "mass");
+        let centre = [
+            (90e3 * plain.centre[0] + panels * 3.0) / heavy.mass,
+            90e3 * plain.centre[1] / heavy.mass,
+        ];
+        let about = |mass: f64, at: [f64; 2]| {
+            mass * ((at[0] - centre[0]).powi(2) + (at[1] - centre[1]).powi(2))
+        };
+        let polar = plain.polar_mass
+            + about(90e3, plain.centre)
+            + about(0.5 * panels, [0.0, 0.0])
+            + about(0.5 * panels, [6.0, 0.0]);
+        close(heavy.centre[0], centre[0], 5.0, 1e-13, "centre");
+        close(heavy.centre[1], centre[1], 5.0, 1e-13, "centre");
+        close(heavy.polar_mass, polar, polar, 1e-13, "polar mass");
+    }
+}
+
+/// Connections of beams yield as those of plane frames at the same lines, shaken along x and across.
+#[test]
+fn connections_yield_as_in_plane_frames() {
+    let joint = "joint = { rotational_stiffness = \"40 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"60 kN.m\", post_yield = 0.03 } }\n";
+    let weaker = "joint = { rotational_stiffness = \"30 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"45 kN.m\", post_yield = 0.03 } }\n";
+    let usual = "storeys = 2\nstorey_height = \"3.2 m\"\nmass = \"60 t\"\naxial = \"rigid\"\np_delta = false\ndamping = { alpha = 0.4, beta = 0.0 }\n";
+    let plane = |name: &str, direction: &str, at: &str, spans: &str, column: &str, joint: &str| {
+        format!(
+            "[[building.frame]]\nname = \"{name}\"\nat = {at}\ndirection = \"{direction}\"\nspans = {spans}\nelastic_modulus = \"30 GPa\"\ncolumn = {column}\nbeam = {{ width = 0.3, depth = 0.5 }}\naxial = \"rigid\"\n{joint}"
+        )
+    };
+    let frames = [
+        plane(
+            "a",
+            "x",
+            "[[0, 0], [0, 5]]",
+            "[6, 5]",
+            "{ width = 0.4, depth = 0.5 }",
+            joint,
+        ),
+        plane(
+            "b",
+            "y",
+            "[[0, 0], [6, 0], [11, 0]]",
+            "[5]",
+            "{ width = 0.5, depth = 0.4 }",
+            weaker,
+        ),
+    ];
+    let at_lines = format!(
+        "[[building]]\nname = \"A\"\nkind = \"frame\"\nplan = [11, 5]\n{}{}{}",
+        usual.replace("axial = \"rigid\"\n", ""),
+        frames[0],
+        frames[1]
+    );
+    let inner = |joint: &str| {
+        let table = joint.trim().trim_start_matches("joint = ");
+        table.to_owned()
+    };
+    let in_space = format!(
+        "[[building]]\nname = \"A\"\nkind = \"space-frame\"\nlines_x = [0, 6, 11]\nlines_y = [0, 5]\nelastic_modulus = \"30 GPa\"\ncolumn = {{ size = [0.5, 0.4] }}\nbeam_x = {{ width = 0.3, depth = 0.5 }}\nbeam_y = {{ width = 0.3, depth = 0.5 }}\n{usual}joint = {{ x = {}, y = {} }}\n",
+        inner(joint),
+        inner(weaker)
+    );
+    // Beams twist with the joints of the other direction: they hardly resist here.
+    let in_space = in_space.replace("elastic_modulus", "torsion_factor = 1e-9\nelastic_modulus");
+    for angle in [0.0, std::f64::consts::FRAC_PI_2] {
+        let peaks = [&at_lines, &in_space].map(|text| {
+            let mut input = read(text).unwrap_or_else(|error| panic!("{error}"));
+            input.model.analysis.step = Some(2e-3);
+            let motion = GroundMotion {
+                bearing: Some(Box::new(jostle::Bearing {
+                    angle,
+                    across: None,
+                })),
+                ..fading("along", 9.0, [2.0, 3.0], 150)
+            };
+            let (_, outcome) = runs::run(&input.model, &motion, Some(0.02));
+            assert!(
+                outcome.energy.hysteretic > 1e3,
+                "{}",
+                outcome.energy.hysteretic
+            );
+            let floors = outcome.peaks.floors(0);
+            let moved = floors.iter();
+            moved
+                .map(|floor| {
+                    [
+                        floor.displacement().size(),
+                        floor.across().displacement().size(),
+                    ]
+                })
+                .collect::<Vec<_>>()
+        });
+        for (one, other) in peaks[0].iter().zip(&peaks[1]) {
+            let scale = one[0].max(one[1]);
+            close(other[0], one[0], scale, 1e-6, "along x");
+            close(other[1], one[1], scale, 1e-6, "across");
+        }
+    }
+    for (key, problem) in [
+        (
+            "joint = { hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 } }\n",
+            "rotational_stiffness: is missing",
+        ),
+        (
+            "joint = { rotational_stiffness = 4e7 }\n",
+            "hinge: is missing",
+        ),
+        (
+            "joint = { rotational_stiffness = 4e7, hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 }, x = {} }\n",
+            "cannot be combined with x and y",
+        ),
+        (
+            "joint = { rotational_stiffness = 4e7, hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 } }\nhinges = { rule = \"bilinear\", beam = { yield = 6e4, post_yield = 0.02 } }\n",
+            "stands where beams have hinges already",
+        ),
+    ] {
+        let said = refused(key);
+        assert!(said.contains(problem), "{problem}: {said}");
+    }
+}
+
+/// Between any two joints of the grid: from below, whichever is named first, with EA over the length between them.
+#[test]
+fn a_brace_joins_two_joints_by_name() {
+    let found =
+        |ends: &str| with(&format!("brace = [{{ {ends}, EA = \"500 MN\" }}]\n")).diagonals[0];
+    for (ends, crossings, length, name) in [
+        (
+            "from = \"0.1.1\", to = \"2.2.3\"",
+            [[0, 0], [1, 2]],
+            (36.0_f64 + 81.0 + 6.4 * 6.4).sqrt(),
+            "brace.0.1.1.to.2.2.3",
+        ),
+        (
+            "from = \"2.1.1\", to = \"1.3.2\"",
+            [[2, 1], [0, 0]],
+            (121.0_f64 + 25.0 + 3.2 * 3.2).sqrt(),
+            "brace.1.3.2.to.2.1.1",
+        ),
+        (
+            "from = \"0.2.3\", to = \"2.2.1\"",
+            [[1, 2], [1, 0]],
+            9.0_f64.hypot(6.4),
+            "brace.0.2.3.to.2.2.1",
+        ),
+        (
+            "from = \"0.1.2\", to = \"2.1.2\"",
+            [[0, 1], [0, 1]],
+            6.4,
+            "brace.0.1.2.to.2.1.2",
+        ),
+        (
+            "from = \"1.1.2\", to = \"0.1.1\"",
+            [[0, 0], [0, 1]],
+            5_f64.hypot(3.2),
+            "brace_y.1.1.1.up",
+        ),
+    ] {
+        let brace = found(ends);
+        assert_eq!(brace.place.crossings(), Some(crossings), "{ends}");
+        assert_eq!(brace.place.to_string(), name);
+        close(brace.stiffness, 500e6 / length, 1e8, 1e-13, name);
+    }
+    for (ends, problem) in [
+        (
+            "from = \"0.1\", to = \"2.2.3\"",
+            "write FLOOR.X.Y, such as \"0.1.1\"",
+        ),
+        (
+            "from = \"0.1.4\", to = \"2.2.3\"",
+            "lines of lines_x from 1 to 3 and of lines_y from 1 to 3",
+        ),
+        ("from = \"0.1.1\"", "to: is missing"),
+        ("from = \"0.1.1\", to = \"0.1.2\"", "is at floor 0 as well"),
+        (
+            "from = \"0.1.1\", to = \"2.2.3\", along = \"x\"",
+            "along: cannot be combined with from and to",
+        ),
+        // Outside of the L.
+        (
+            "from = \"0.1.1\", to = \"2.3.3\"",
+            "the nearest joint is \"2.3.2\"",
+        ),
+    ] {
+        let said = refused(&format!("brace = [{{ {ends}, EA = 5e8 }}]\n"));
+        assert!(said.contains(problem), "{problem}: {said}");
+    }
+    let upright = "brace = [{ from = \"0.1.1\", to = \"2.1.1\", EA = 5e8 }]\naxial = \"rigid\"\n";
+    let said = refused(upright);
+    assert!(
+        said.contains("beside columns that keep their length"),
+        "{said}"
+    );
+}
+
 #[test]
 fn wrong_places_are_refused() {
     let missing = refused("brace = [{ EA = 3e8 }]\n");

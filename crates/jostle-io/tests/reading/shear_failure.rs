@@ -1,7 +1,7 @@
 //! `shear_failure`: from keys to shear springs of columns, and what is refused.
 
-use jostle::{Hinges, ShearEnds, ShearSpring};
-use jostle_testkit::files;
+use jostle::{Hinges, PlanAxis, ShearEnds, ShearSpring, Structure};
+use jostle_testkit::files::{self, refusal, sound};
 
 const MODEL: &str = r#"
 [motion]
@@ -201,5 +201,118 @@ fn what_is_missing_or_contradicts_is_named() {
     ] {
         let found = read(key, ties, "\"common\"").expect_err(key);
         assert!(found.contains(said), "{key}\n{found}");
+    }
+}
+
+/// A column along x and across has the strengths of plane frames in which it bends so, under its share of the weight.
+#[test]
+fn columns_of_space_frames_have_the_strengths_of_plane_ones() {
+    let bars = "steel = \"HRB400\", bars = \"4 d20 top, 4 d20 bottom, 2 d20 sides\", ties = \"d10 @ 150 mm\"";
+    let turned = "steel = \"HRB400\", bars = \"3 d20 top, 3 d20 bottom, 4 d20 sides\", ties = \"d10 @ 150 mm\"";
+    let beam = "width = 0.3, depth = 0.6, steel = \"HRB400\", bars = \"4 d25 top, 3 d25 bottom\"";
+    let failure = "shear_failure = { rule = \"sezen-moehle\", slope = \"8 MN/m\", residual = 0.2 }";
+    let space = format!(
+        "[[building]]\nname = \"A\"\nkind = \"space-frame\"\nstorey_height = 3.2\nlines_x = [0, 6]\nlines_y = [0, 6]\nmass = \"60 t\"\nconcrete = \"C30\"\ncolumn = {{ size = [0.5, 0.4], {turned} }}\nbeam_x = {{ {beam} }}\nbeam_y = {{ {beam} }}\n{failure}\n"
+    );
+    let input = sound(&space);
+    let Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
+        panic!("in plan");
+    };
+    let shear = &tiers.space_frame.as_ref().expect("a frame").shear;
+    assert_eq!(shear.len(), 8);
+    let weight = 60e3 * 9.806_65 / 4.0;
+    for (axis, [width, depth], bars) in [
+        (PlanAxis::X, [0.4, 0.5], turned),
+        (PlanAxis::Y, [0.5, 0.4], bars),
+    ] {
+        let plane = format!(
+            "[[building]]\nname = \"A\"\nstoreys = 1\nstorey_height = 3.2\nspans = [6]\nfloor_mass = \"30 t\"\nconcrete = \"C30\"\ncolumn = {{ width = {width}, depth = {depth}, axial_load = {weight}, {bars} }}\nbeam = {{ {beam} }}\n{failure}\n"
+        );
+        let input = sound(&plane);
+        let Some(Hinges::Frame(hinges)) = &input.model.buildings[0].hinges else {
+            panic!("hinges");
+        };
+        let due = &hinges.shear[0][0];
+        let strength = |spring: &ShearSpring| {
+            spring
+                .spring
+                .backbone()
+                .side(jostle::hysteresis::Side::Positive)
+                .yielding
+                .force
+        };
+        for (_, spring) in shear.iter().filter(|((_, own), _)| *own == axis) {
+            let (found, due_strength) = (strength(spring), strength(due));
+            assert!(
+                (found / due_strength - 1.0).abs() < 1e-9,
+                "{axis:?}: {found}, not {due_strength}"
+            );
+            let falls =
+                |spring: &ShearSpring| spring.spring.falling_branch().expect("it falls").slope;
+            assert!((falls(spring) / falls(due) - 1.0).abs() < 1e-9);
+            for ductility in [2.0, 4.0, 7.0] {
+                let [own, due] = [spring, due].map(|spring| spring.by_ductility.at(ductility));
+                assert!((own / due - 1.0).abs() < 1e-9, "{own}, not {due}");
+            }
+        }
+    }
+    let refused = |failure: &str| {
+        refusal(&space.replace(
+            "shear_failure = { rule = \"sezen-moehle\", slope = \"8 MN/m\", residual = 0.2 }",
+            failure,
+        ))
+    };
+    let ends = refused("shear_failure = { strength = 3e5, slope = 5e6, ends = \"both\" }");
+    assert!(
+        ends.contains("ends: is for frames without a plan"),
+        "{ends}"
+    );
+    let bare = refusal(&space.replace(", ties = \"d10 @ 150 mm\"", ""));
+    assert!(
+        bare.contains("needs bars and ties of every column"),
+        "{bare}"
+    );
+}
+
+/// Frames at several lines have it all, and columns of a space frame that a slab can hit a second spring at their heads.
+#[test]
+fn frames_in_plan_fail_and_struck_columns_at_both_ends() {
+    let failure = "shear_failure = { strength = [\"300 kN\", \"200 kN\"], slope = \"5 MN/m\" }\n";
+    let lines = format!(
+        "[[building]]\nname = \"A\"\nkind = \"frame\"\nstorey_height = [4, 3.2]\nplan = [6, 5]\nmass = \"60 t\"\n[[building.frame]]\nat = [[0, 0], [0, 5]]\nspans = [6]\nconcrete = \"C30\"\ncolumn = {{ width = 0.4, depth = 0.4 }}\nbeam = {{ width = 0.3, depth = 0.5 }}\n{failure}[[building.frame]]\nname = \"across\"\nat = [[0, 0], [6, 0]]\ndirection = \"y\"\nspans = [5]\nconcrete = \"C30\"\ncolumn = {{ width = 0.4, depth = 0.4 }}\nbeam = {{ width = 0.3, depth = 0.5 }}\n"
+    );
+    let input = sound(&lines);
+    let Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
+        panic!("in plan");
+    };
+    let counts = tiers
+        .frames
+        .iter()
+        .map(|frame| frame.hinges.shear.iter().flatten().count());
+    assert_eq!(counts.collect::<Vec<_>>(), [4, 4, 0, 0]);
+    let space = |name: &str, at: f64, heights: &str, failure: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nkind = \"space-frame\"\nat = [{at}, 0]\nstorey_height = {heights}\nlines_x = [0, 6]\nlines_y = [0, 5]\nmass = \"60 t\"\nconcrete = \"C30\"\ncolumn = {{ size = [0.5, 0.4] }}\nbeam_x = {{ width = 0.3, depth = 0.6 }}\nbeam_y = {{ width = 0.3, depth = 0.6 }}\n{failure}"
+        )
+    };
+    let text = format!(
+        "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nfloors = \"all\"\nlaw = \"hertz\"\nstiffness = 2e9\n",
+        space("A", 0.0, "[4.0, 3.2]", failure),
+        space("B", 6.02, "[2.8, 3.2]", "")
+    );
+    let input = sound(&text);
+    let Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
+        panic!("in plan");
+    };
+    let shear = &tiers.space_frame.as_ref().expect("a frame").shear;
+    assert_eq!(shear.len(), 16);
+    for ((place, _), spring) in shear {
+        let is_struck = place.crossings()[0][0] == 1;
+        let due = if is_struck {
+            ShearEnds::Both
+        } else {
+            ShearEnds::Foot
+        };
+        assert_eq!(spring.ends, due, "{place}");
     }
 }

@@ -347,7 +347,7 @@ fn in_space(
         }
         @for diagonal in diagonals {
             @if let Some([low, high]) = diagonal.ends {
-                line.infill[diagonal.infill].brace[!diagonal.infill] x1=(round(x(low[0]))) x2=(round(x(high[0]))) y1=(round(y(diagonal.storey - 1))) y2=(round(y(diagonal.storey))) {}
+                line.infill[diagonal.infill].brace[!diagonal.infill] x1=(round(x(low[0]))) x2=(round(x(high[0]))) y1=(round(y(diagonal.floors()[0]))) y2=(round(y(diagonal.floors()[1]))) {}
             }
         }
         @for member in members.iter().filter(|member| member.wall.is_none()) {

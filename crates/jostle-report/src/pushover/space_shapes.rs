@@ -172,6 +172,6 @@ fn ends(place: SpacePlace) -> [Joint; 2] {
 
 /// Those of a brace or a strut.
 fn diagonal_ends(place: DiagonalPlace) -> Option<[Joint; 2]> {
-    let [low, high] = place.crossings()?;
-    Some([(low, place.storey - 1), (high, place.storey)])
+    let ([low, high], [from, to]) = (place.crossings()?, place.floors());
+    Some([(low, from), (high, to)])
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
-use jostle::{ColumnFibres, SpaceFrame, SpaceMember, SpacePlace};
+use jostle::{ColumnFibres, ShearSpring, SpaceFrame, SpaceMember, SpacePlace};
 use jostle_io::shown::{FORCE, HEIGHT, MOMENT, Shown};
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
@@ -38,6 +38,8 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
                     )?;
                 }
             }
+            let shear = hinges.shear.iter().flatten();
+            describe_shear(text, "columns", &shear.collect::<Vec<_>>())?;
         }
         Hinges::Storeys(springs) => {
             let springs: Vec<&Hysteresis> = springs.iter().collect();
@@ -54,6 +56,17 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
         }
     }
     Ok(())
+}
+
+/// Columns that fail in shear, and at which strengths.
+fn describe_shear(text: &mut String, what: &str, all: &[&ShearSpring]) -> std::fmt::Result {
+    let springs: Vec<&Hysteresis> = all.iter().map(|column| &column.spring).collect();
+    if springs.is_empty() {
+        return Ok(());
+    }
+    let [_, strength] = extents(&springs, Side::Positive);
+    let (strength, force) = (range(strength, FORCE), FORCE.name());
+    writeln!(text, "  {what} fail in shear at {strength} {force}")
 }
 
 /// Columns whose ends are made of fibres: how many, and how strong the first of them is.
@@ -185,9 +198,12 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         let springs: Vec<&Hysteresis> = members
             .filter_map(|member| member.hinges[plane].as_ref())
             .collect();
-        let Some(first) = springs.first() else {
+        if springs.is_empty() {
             continue;
-        };
+        }
+        let mut rules: Vec<&str> = springs.iter().map(|spring| spring.rule().name()).collect();
+        rules.sort_unstable();
+        rules.dedup();
         let [cracking, yielding] = extents(&springs, Side::Positive);
         let cracks = match cracking == yielding {
             true => String::new(),
@@ -197,9 +213,14 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
             text,
             "  {} of {what} {}: {cracks}yield at {} {moment}",
             counted(2 * springs.len(), "hinge"),
-            first.rule().name(),
+            rules.join(" and "),
             range(yielding, MOMENT)
         )?;
+    }
+    for axis in PlanAxis::BOTH {
+        let shear = frame.shear.iter().filter(|((_, along), _)| *along == axis);
+        let shear: Vec<&ShearSpring> = shear.map(|(_, spring)| spring).collect();
+        describe_shear(text, &format!("columns, {},", axis.name()), &shear)?;
     }
     Ok(())
 }

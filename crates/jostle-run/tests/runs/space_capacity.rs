@@ -89,6 +89,42 @@ fn in_space(motion: &str, solver: &str, turned: bool, axial: &str) -> Ran {
     shaken(motion, solver, &building)
 }
 
+/// Of two columns that are hit at one height, the one without bars is named, although the other is compared with its capacity.
+#[test]
+fn every_struck_column_is_rated_or_named() {
+    let with_bars = column(false, "size = [0.5, 0.4]").replace("column = ", "");
+    let with_bars = with_bars.trim();
+    let building = |name: &str, at: f64, heights: &str, columns: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nkind = \"space-frame\"\nat = [{at}, 0]\nstorey_height = {heights}\nlines_x = [0, 6]\nlines_y = [0, 5]\nmass = \"60 t\"\nconcrete = \"C30\"\ncolumn = {columns}\nbeam_x = {{ {BEAM} }}\nbeam_y = {{ {BEAM} }}\n"
+        )
+    };
+    let text = |last: &str| {
+        format!(
+            "[motion]\nrecord = \"el-centro-1940-ns\"\npga = \"0.4 g\"\nduration = \"4 s\"\n[output]\nmembers = true\n{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nfloors = \"all\"\nlaw = \"hertz-damp\"\nstiffness = 2e9\nrestitution = 0.65\n",
+            building("A", 0.0, "[4.0, 3.2]", &format!("[{with_bars}, {last}]")),
+            building("B", 6.01, "[2.8, 3.2]", with_bars)
+        )
+    };
+    let named = |last: &str| {
+        let summary = ran(&text(last)).summary();
+        let unrated = summary
+            .checks
+            .iter()
+            .filter(|check| check.name == "struck-unrated");
+        unrated.map(|check| check.text.clone()).collect::<Vec<_>>()
+    };
+    let found = named("{ x = 2, y = 2, size = [0.5, 0.4] }");
+    assert!(
+        found.len() == 1
+            && found[0].contains("A.column.2.2.")
+            && found[0].contains("is hit between floors"),
+        "{found:?}"
+    );
+    let with_all = with_bars.replace("{ size", "{ x = 2, y = 2, size");
+    assert_eq!(named(&with_all), Vec::<String>::new());
+}
+
 fn members(ran: &Ran) -> Vec<MemberSummary> {
     let buildings = ran.summary().buildings.into_iter();
     buildings.flat_map(|building| building.members).collect()

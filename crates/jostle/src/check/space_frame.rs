@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use super::frame_places::OffsetLimits;
 use super::{Faults, check_diagonals, check_floor_loads, fibres};
 use crate::model::{
-    Building, ColumnFibres, Diagonal, DiagonalPlace, SpaceFrame, SpacePlace, Tiers,
+    Building, ColumnFibres, Diagonal, DiagonalKind, DiagonalPlace, Reach, SpaceFrame, SpacePlace,
+    Tiers,
 };
 
 /// Least distance of two lines \[m\].
@@ -83,6 +84,22 @@ pub(super) fn check_space_frame(
         format!("{path}.hinges"),
         || "cannot lose their strength in a space frame; take another rule".into(),
     );
+    let mut shear = frame.shear.values();
+    faults.require(
+        shear.all(|column| column.spring.falling_branch().is_some()),
+        format!("{path}.shear_failure"),
+        || "takes springs that lose their strength, from Hysteresis::failing".into(),
+    );
+    let stands = |place: SpacePlace| {
+        let mut members = frame.members.iter();
+        is_column(place) && members.any(|member| member.place == place)
+    };
+    if let Some((place, _)) = frame.shear.keys().find(|(place, _)| !stands(*place)) {
+        faults.add(
+            format!("{path}.shear_failure"),
+            format!("lets {} fail, and there is none", name(*place)),
+        );
+    }
     if !frame.fibres.is_empty() {
         fibres::check_weight(faults, &format!("{path}.hinges"), building);
     }
@@ -120,20 +137,40 @@ pub(super) fn check_space_frame(
 /// What is wrong with the place of a diagonal: it is not in the grid, or ends where there is no joint.
 fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) -> Option<String> {
     let lines = [&frame.lines_x, &frame.lines_y].map(Vec::len);
+    let reach = place.reach;
+    let crosses = reach == Reach::BAY || (place.kind == DiagonalKind::Brace && reach.storeys > 0);
     let line = place.line.filter(|line| {
-        let across = lines[1 - line.along.index()];
-        (1..=across).contains(&line.number)
-            && (1..lines[line.along.index()]).contains(&place.bay)
-            && (1..=floors).contains(&place.storey)
+        let across = 1..=lines[1 - line.along.index()];
+        let upper = line.number.checked_add_signed(reach.across);
+        across.contains(&line.number)
+            && upper.is_some_and(|upper| across.contains(&upper))
+            && place.bay > 0
+            && place.bay + reach.bays <= lines[line.along.index()]
+            && place.storey > 0
+            && place.floors()[1] <= floors
     });
-    let Some(line) = line else {
+    let Some([lower, upper]) = line.filter(|_| crosses).and_then(|_| place.crossings()) else {
         return Some(format!(
             "{place} is in no bay of a grid of {} lines along x and {} across, with {floors} storeys, counted from 1",
             lines[1], lines[0]
         ));
     };
-    let ends = [place.storey - 1, place.storey].into_iter();
-    let mut loose = ends.zip(place.lines().map(|other| line.crossing(other)));
+    let [low, high] = place.floors();
+    let keeps_length = |storey| {
+        let column = SpacePlace::Column {
+            line: lower,
+            storey,
+        };
+        let mut members = frame.members.iter();
+        let column = members.find(|member| member.place == column);
+        column.is_some_and(|column| column.section.axial_rigidity.is_none())
+    };
+    if lower == upper && (low..high).all(keeps_length) {
+        return Some(format!(
+            "{place} stands beside columns that keep their length, so that it bears nothing; take axial = \"flexible\", or leave it out"
+        ));
+    }
+    let mut loose = [(low, lower), (high, upper)].into_iter();
     let (floor, [x, y]) = loose.find(|(floor, at)| !frame.has_joint(*floor, *at))?;
     Some(format!(
         "{place} ends at x = {}, y = {} of floor {floor}, where there is no joint; leave it out there, or add the column",

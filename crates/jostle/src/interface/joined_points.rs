@@ -1,8 +1,10 @@
 //! From the gaps and links of a model to contacts and elements between points.
 
+use std::collections::BTreeSet;
+
 use super::contact_points::{PointPair, SAME, point_pairs};
 use super::plan_gap::struck_columns;
-use crate::model::{FloorPairs, Model};
+use crate::model::{FloorPairs, Model, SpacePlace};
 use crate::structure::StruckPoints;
 
 /// Points of all gaps and links of a checked model.
@@ -25,6 +27,12 @@ impl Model {
     #[must_use]
     pub fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
         JoinedPoints::new(self).points_on_faces(self, building)
+    }
+
+    /// Columns of a space frame that others can strike between its floors.
+    #[must_use]
+    pub fn columns_struck_between_floors(&self, building: usize) -> BTreeSet<SpacePlace> {
+        struck_columns(self, building).into_keys().collect()
     }
 
     /// Whether others can strike columns of a space frame between its floors.

@@ -23,6 +23,7 @@ pub(crate) use joined_points::JoinedPoints;
 pub use link::{LinkElement, LinkMemory};
 pub(crate) use plan_contacts::MOST_POINTS;
 pub use plan_contacts::{PlanContactKind, PlanPart};
+pub use plan_gap::UnmetColumns;
 pub use plan_gap::narrowest_gap;
 pub(crate) use plan_gap::{Touched, columns_not_met, faces_of_gap, narrowest};
 pub use port::{Port, PortPair};

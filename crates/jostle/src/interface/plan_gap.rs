@@ -196,6 +196,97 @@ pub(crate) fn columns_not_met(model: &Model, gap: &Gap) -> Vec<(usize, bool)> {
     missed.collect()
 }
 
+/// Slabs beside a building with columns between its floors that `floors = "all"` leaves without a contact, because they meet none of
+/// its columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnmetColumns {
+    /// The gap, by its index in [`Model::gaps`].
+    pub gap: usize,
+    /// Building of the slabs, and that of the columns, by their indices in [`Model::buildings`].
+    pub between: [usize; 2],
+    /// The floors, counted from 1; 0 for a mat.
+    pub floors: Vec<usize>,
+    /// Their heights above the common datum \[m\].
+    pub heights: Vec<f64>,
+    /// Whether columns stand within the common width, but too far behind the edge of their plan.
+    pub behind: bool,
+}
+
+impl Model {
+    /// Slabs that meet no column where `floors = "all"` looks for one, gap by gap. The model must pass [`Model::check`].
+    #[must_use]
+    pub fn unmet_columns(&self) -> Vec<UnmetColumns> {
+        let mut found: Vec<UnmetColumns> = Vec::new();
+        for (index, gap) in self.gaps.iter().enumerate() {
+            let [Some(a), Some(b)] = gap.between else {
+                continue;
+            };
+            let sides = [Side::new(self, Some(a)), Side::new(self, Some(b))];
+            let ([Some(one), Some(other)], FloorPairs::All) = (sides, &gap.floors) else {
+                continue;
+            };
+            let sides = [one, other];
+            let neighbours = self.neighbours(gap.between);
+            let pairs = point_pairs(&gap.floors, neighbours, gap.level_tolerance);
+            for pair in pairs.unwrap_or_default() {
+                let Some((slab, floor, behind)) = unmet(&sides, &pair, &gap.in_plan) else {
+                    continue;
+                };
+                let between = [[a, b][slab], [a, b][1 - slab]];
+                let height = pair[slab].unwrap_or_default();
+                let known = found.iter_mut().find(|known| {
+                    (known.gap, known.between, known.behind) == (index, between, behind)
+                });
+                match known {
+                    Some(known) => {
+                        known.floors.push(floor);
+                        known.heights.push(height);
+                    }
+                    None => found.push(UnmetColumns {
+                        gap: index,
+                        between,
+                        floors: vec![floor],
+                        heights: vec![height],
+                        behind,
+                    }),
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Side and number of a slab whose edge lies before that of the plan above columns, but that meets none of these, and whether some stand
+/// behind that edge.
+fn unmet(
+    sides: &[Side<'_>; 2],
+    pair: &PointPair,
+    contact: &PlanContact,
+) -> Option<(usize, usize, bool)> {
+    let [(one, first), (other, second)] = [sides[0].level(pair[0])?, sides[1].level(pair[1])?];
+    let (slab, floor, storey) = match (one, other) {
+        (Level::Floor(Touched::Floor(floor)), Level::Columns { storey, .. }) => (0, floor, storey),
+        (Level::Columns { storey, .. }, Level::Floor(Touched::Floor(floor))) => (1, floor, storey),
+        _ => return None,
+    };
+    let faces = plan_faces(first, second, contact);
+    let columns = 1 - slab;
+    let meets = |contact: &PlanContact| {
+        !sides[columns]
+            .struck_by(&faces, columns, storey, contact)
+            .is_empty()
+    };
+    let faces_it = faces.iter().any(|face| face.kind == PlanContactKind::Face);
+    if !faces_it || meets(contact) {
+        return None;
+    }
+    let anywhere = PlanContact {
+        reach: f64::INFINITY,
+        ..*contact
+    };
+    Some((slab, floor, meets(&anywhere)))
+}
+
 impl Side<'_> {
     /// Columns of a storey that a slab strikes over the common width of both buildings, each with its own contact. `faces`: those of the slab
     /// and the plan above the columns, which are on this `side` of them.

@@ -2,13 +2,14 @@
 
 use super::{Known, Tally, quoted};
 use crate::hysteresis::{Hysteresis, Side};
+use crate::interface::PlanPart;
 use crate::linear::sort_by;
 use crate::model::{
-    Building, Diagonal, DiagonalKind, FramePlace, Hinges, LEVEL_TOLERANCE, STANDARD_GRAVITY,
-    Structure, capacity_rule_title,
+    Building, Diagonal, DiagonalKind, FramePlace, Hinges, STANDARD_GRAVITY, SpacePlace, Structure,
+    capacity_rule_title,
 };
-use crate::results::summary::{MemberSummary, RatioSummary};
-use crate::structure::SpringPlace;
+use crate::results::summary::{BuildingSummary, ContactSummary, MemberSummary, RatioSummary};
+use crate::structure::{MemberPlace, SpringPlace};
 
 /// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
 const YIELD_DRIFT: f64 = 0.01;
@@ -131,7 +132,7 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
 
 /// Greatest shear over its capacity of columns that are struck between floors, during an impact.
 pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
-    for (member, ratio) in struck(known) {
+    for (_, member, ratio) in struck(known) {
         let (Some(times), Some(place)) = (ratio.shear, &ratio.shear_at) else {
             continue;
         };
@@ -151,23 +152,16 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
 
 /// Greatest moment over its capacity at struck points of columns that have no hinge there.
 pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
-    let buildings = known
-        .results
-        .iter()
-        .flat_map(|(summary, _)| &summary.buildings);
-    let hinged: Vec<String> = buildings
-        .flat_map(|building| {
-            let hinges = building.hinges.list.iter();
-            let columns = hinges.filter_map(|hinge| match hinge.at? {
-                SpringPlace::Struck { member, .. } => Some(member),
-                _ => None,
-            });
-            columns.map(|column| format!("{}.{column}", building.name))
-        })
-        .collect();
-    for (member, ratio) in struck(known) {
+    let hinged = |building: &BuildingSummary, place: MemberPlace| {
+        let mut hinges = building.hinges.list.iter();
+        hinges.any(
+            |hinge| matches!(hinge.at, Some(SpringPlace::Struck { member, .. }) if member == place),
+        )
+    };
+    for (building, member, ratio) in struck(known) {
         let (times, place) = (ratio.bending, &ratio.bending_at);
-        if !matches!(place.at, "below" | "above") || hinged.contains(&member.name) {
+        let has_hinge = member.place.is_some_and(|place| hinged(building, place));
+        if !matches!(place.at, "below" | "above") || has_hinge {
             continue;
         }
         tally.add(times, || {
@@ -204,22 +198,19 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
                 continue;
             };
             let building = &summary.buildings[index];
-            let height = contact.height_m - known.model.buildings[index].base.elevation;
-            let is_struck = |member: &&MemberSummary| {
-                let mut points = member.struck.iter();
-                points.any(|point| (point.height_m - height).abs() <= LEVEL_TOLERANCE)
-            };
-            let mut members = building.members.iter().filter(is_struck);
-            let rated = members.clone().any(|member| member.ratio.is_some());
+            let column = struck_column(&known.model.buildings[index], contact, side);
+            let mut members = building.members.iter();
+            let member = members.find(|member| column.is_some() && member.place == column);
+            let rated = member.is_some_and(|member| member.ratio.is_some());
             if rated || building.shear_failures.is_some() {
                 continue;
             }
-            let asked = f64::from(u8::from(!building.members.is_empty()));
+            let asked = f64::from(u8::from(member.is_some()));
             tally.add(1.0 + asked, || {
-                let name = members.next().map_or_else(
-                    || format!("a column of {}", quoted(&building.name)),
-                    |member| member.name.clone(),
-                );
+                let name = match column {
+                    Some(column) => format!("{}.{column}", building.name),
+                    None => format!("a column of {}", quoted(&building.name)),
+                };
                 let text = format!(
                     "{name} is hit between floors, at {:.3} m, with up to {:.0} kN, and is not compared with its capacity",
                     contact.height_m,
@@ -231,18 +222,44 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
+/// The column of a building that a contact between its floors strikes. `side`: that of the building.
+fn struck_column(model: &Building, contact: &ContactSummary, side: usize) -> Option<MemberPlace> {
+    let height = contact.height_m - model.base.elevation;
+    let storey = model
+        .floor_heights()
+        .iter()
+        .filter(|floor| **floor < height)
+        .count();
+    if let Some(in_plan) = &contact.in_plan {
+        let PlanPart::Column(line) = in_plan.parts[side] else {
+            return None;
+        };
+        return Some(MemberPlace::InSpace(SpacePlace::Column { line, storey }));
+    }
+    let Structure::Frame(frame) = &model.structure else {
+        return None;
+    };
+    // What stands left of a gap is struck on its right face.
+    let line = frame.outer_lines(storey + 1)?[1 - side] + 1;
+    let storey = storey + 1;
+    Some(MemberPlace::Column { line, storey })
+}
+
 /// Columns that were struck between floors, and what they bear; not those that fail in this model, which bear no more than they can.
-fn struck<'a>(known: &Known<'a>) -> impl Iterator<Item = (&'a MemberSummary, &'a RatioSummary)> {
+fn struck<'a>(
+    known: &Known<'a>,
+) -> impl Iterator<Item = (&'a BuildingSummary, &'a MemberSummary, &'a RatioSummary)> {
     let buildings = known
         .results
         .iter()
         .flat_map(|(summary, _)| &summary.buildings);
     let lasting = buildings.filter(|building| building.shear_failures.is_none());
     lasting
-        .flat_map(|lasting| &lasting.members)
-        .filter_map(|member| {
+        .flat_map(|lasting| lasting.members.iter().map(move |member| (lasting, member)))
+        .filter_map(|(building, member)| {
             let is_struck = member.struck.iter().any(|point| point.impact_count > 0);
-            Some((member, member.ratio.as_ref().filter(|_| is_struck)?))
+            let ratio = member.ratio.as_ref().filter(|_| is_struck)?;
+            Some((building, member, ratio))
         })
 }
 

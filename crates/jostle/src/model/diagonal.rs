@@ -103,7 +103,7 @@ impl PanelAcross {
 pub struct DiagonalPlace {
     /// What it is.
     pub kind: DiagonalKind,
-    /// The grid line of a space frame to which its bay belongs; `None` in a plane frame.
+    /// The grid line of a space frame to which its bay belongs, or on which its lower end lies; `None` in a plane frame.
     pub line: Option<GridLine>,
     /// Storey, the lowest that it crosses.
     pub storey: usize,
@@ -117,7 +117,7 @@ pub struct DiagonalPlace {
     pub strut: StrutLine,
 }
 
-/// How many storeys and bays a diagonal crosses.
+/// How far a diagonal reaches.
 ///
 /// ```
 /// use jostle::{DiagonalKind, DiagonalPlace, Reach, Rise, StrutLine};
@@ -125,17 +125,19 @@ pub struct DiagonalPlace {
 /// // From the foot of the first column line to floor 2 of the third.
 /// let place = DiagonalPlace {
 ///     kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right,
-///     reach: Reach { storeys: 2, bays: 2 }, strut: StrutLine::Central,
+///     reach: Reach { storeys: 2, bays: 2, across: 0 }, strut: StrutLine::Central,
 /// };
 /// assert_eq!((place.floors(), place.lines()), ([0, 2], [0, 2]));
 /// assert_eq!(place.to_string(), "brace.0.1.to.2.3");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reach {
-    /// Storeys, ≥ 1; 1 of struts and in a space frame.
+    /// Storeys, ≥ 1; 1 of struts.
     pub storeys: usize,
-    /// Bays; 0 along a column line, 1 of struts and in a space frame.
+    /// Bays along its line; 0 along a column line, 1 of struts.
     pub bays: usize,
+    /// By how many lines of a grid its upper end lies further across than its lower one; 0 in a plane of the grid.
+    pub across: isize,
 }
 
 impl Reach {
@@ -143,6 +145,7 @@ impl Reach {
     pub const BAY: Self = Self {
         storeys: 1,
         bays: 1,
+        across: 0,
     };
 }
 
@@ -215,7 +218,11 @@ impl DiagonalPlace {
     #[must_use]
     pub fn crossings(self) -> Option<[[usize; 2]; 2]> {
         let line = self.line?;
-        Some(self.lines().map(|other| line.crossing(other)))
+        let [lower, upper] = self.lines();
+        let number = line.number.checked_add_signed(self.reach.across);
+        let number = number.filter(|number| *number > 0)?;
+        let upper_line = GridLine { number, ..line };
+        Some([line.crossing(lower), upper_line.crossing(upper)])
     }
 
     /// Column lines of its lower and of its upper end, from 0; in a space frame lines that cross its own.
@@ -246,8 +253,8 @@ impl GridLine {
     }
 }
 
-/// `brace.STOREY.BAY.RISE` in a plane frame, `brace.FLOOR.LINE.to.FLOOR.LINE` beyond one bay of a storey, `brace_x.STOREY.X.Y.RISE` in a space frame, with the lines at which its bay begins; all
-/// count from 1.
+/// `brace.STOREY.BAY.RISE` in a plane frame, `brace_x.STOREY.X.Y.RISE` in a space frame, with the lines at which its bay begins; beyond one
+/// bay of a storey `brace.FLOOR.LINE.to.FLOOR.LINE` and `brace.FLOOR.X.Y.to.FLOOR.X.Y`; all count from 1, and the ground is floor 0.
 impl std::fmt::Display for DiagonalPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let kind = self.kind.name();
@@ -263,6 +270,13 @@ impl std::fmt::Display for DiagonalPlace {
             }
             return write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay);
         };
+        if self.reach != Reach::BAY
+            && let Some([from, to]) = self.crossings()
+        {
+            let [low, high] = self.floors();
+            let ([x, y], [to_x, to_y]) = (from.map(|line| line + 1), to.map(|line| line + 1));
+            return write!(formatter, "{kind}.{low}.{x}.{y}.to.{high}.{to_x}.{to_y}");
+        }
         let [x, y] = line.crossing(self.bay - 1).map(|crossing| crossing + 1);
         let along = line.along.name();
         write!(formatter, "{kind}_{along}.{}.{x}.{y}.{rise}", self.storey)

@@ -400,6 +400,14 @@ impl FloorMasses {
 }
 
 impl Tier {
+    /// The floor with further masses at points, which move its centre and add to its polar mass \[kg, m\].
+    #[must_use]
+    pub fn with_masses(&self, points: &[(f64, PlanPoint)]) -> Self {
+        FloorMasses([points.to_vec(), Vec::new(), Vec::new()])
+            .on(self)
+            .tier
+    }
+
     /// A length of the size of its plan: the polar radius of gyration \[m\].
     #[must_use]
     pub fn plan_radius(&self) -> f64 {

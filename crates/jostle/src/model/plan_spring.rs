@@ -4,7 +4,7 @@ use super::PlanPoint;
 use crate::hysteresis::Hysteresis;
 
 /// A direction in plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PlanAxis {
     /// Along the row.
     X,

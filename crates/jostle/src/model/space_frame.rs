@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{ColumnFibres, Diagonal, PlanAxis, PlanPoint};
+use super::{ColumnFibres, Diagonal, DiagonalPlace, PlanAxis, PlanPoint, ShearSpring};
 use crate::hysteresis::Hysteresis;
 
 /// Columns and beams in space, tied together by rigid floors.
@@ -48,6 +48,8 @@ pub struct SpaceFrame {
     pub members: Vec<SpaceMember>,
     /// Columns whose ends are made of fibres; they have no hinges.
     pub fibres: BTreeMap<SpacePlace, ColumnFibres>,
+    /// Shear of columns that can fail, in the vertical plane along x and in that across: each by itself, whatever the other bears.
+    pub shear: BTreeMap<(SpacePlace, PlanAxis), ShearSpring>,
     /// Braces, and struts of infill panels, in the bays of its lines.
     pub diagonals: Vec<Diagonal>,
     /// Rigid zones of joints, by floor and by line of `lines_x` and of `lines_y`, from 0: how far from its axis beams along x, beams across,
@@ -69,6 +71,7 @@ impl Default for SpaceFrame {
             lines_y: Vec::new(),
             members: Vec::new(),
             fibres: BTreeMap::new(),
+            shear: BTreeMap::new(),
             diagonals: Vec::new(),
             rigid_zones: BTreeMap::new(),
             walls: Vec::new(),
@@ -265,11 +268,12 @@ impl SpaceSection {
 }
 
 impl SpaceFrame {
-    /// Whether any member has a hinge or fibres, or a diagonal yields or lifts off.
+    /// Whether any member has a hinge or fibres, a column can fail in shear, or a diagonal yields or lifts off.
     #[must_use]
     pub fn may_yield(&self) -> bool {
         let mut diagonals = self.diagonals.iter();
         !self.fibres.is_empty()
+            || !self.shear.is_empty()
             || self.members.iter().any(SpaceMember::may_yield)
             || diagonals.any(|diagonal| diagonal.hysteresis.is_some())
     }
@@ -312,6 +316,15 @@ impl SpaceFrame {
         let [c, s] = self.direction;
         let (x, y) = (x - self.at[0], y - self.at[1]);
         [c * x + s * y, c * y - s * x]
+    }
+
+    /// How far the upper end of a diagonal lies from its lower one, along the lines x and y; `None` in no grid \[m\].
+    #[must_use]
+    pub fn run(&self, place: DiagonalPlace) -> Option<PlanPoint> {
+        let [from, to] = place
+            .crossings()?
+            .map(|[x, y]| [self.lines_x[x], self.lines_y[y]]);
+        Some([to[0] - from[0], to[1] - from[1]])
     }
 
     /// Length of a member between the axes of its joints, in a building with these storey heights \[m\].

@@ -60,6 +60,7 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
             let (ends, struck) = member.sections.split_at(2);
             MemberSummary {
                 name: member_name(building, member),
+                place: Some(member.place),
                 shared_column: member.shared.clone(),
                 ends: ends.iter().map(|end| section(member, end)).collect(),
                 struck: struck

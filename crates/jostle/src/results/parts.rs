@@ -313,7 +313,7 @@ fn footings_of(
 const FOOTING: &str = "footing";
 
 /// Name of a part, with its building and the frame in plan.
-fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> String {
+pub(super) fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> String {
     let frames = &building.discretization.frames;
     match frame.and_then(|frame| frames.get(frame)) {
         Some(frame) => format!("{}.{frame}.{part}", building.name),

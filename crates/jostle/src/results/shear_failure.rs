@@ -1,11 +1,13 @@
 //! Columns that failed in shear, as numbers to report.
 
 use super::capacity::impact_at;
+use super::parts::name_of;
 use super::summarise::{Run, springs_of};
 use super::summary::{ShearFailure, ShearFailureSummary};
 use crate::history::SpringEvent;
 use crate::hysteresis::Side;
 use crate::linear::sort_by;
+use crate::model::PlanAxis;
 use crate::structure::{MemberEnd, SpringPlace};
 
 /// Columns of a building that failed; `None` if none can fail.
@@ -18,18 +20,24 @@ pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureS
     let (mut list, mut columns, mut failed) = (Vec::new(), Vec::new(), Vec::new());
     let mut dissipated_j = 0.0;
     for spring in springs_of(system_building, run.outcome) {
-        let Some(&SpringPlace::Shear { storey, line, end }) = places.get(spring.index) else {
+        let Some(&SpringPlace::Shear {
+            frame,
+            member,
+            axis,
+            end,
+        }) = places.get(spring.index)
+        else {
             continue;
         };
         dissipated_j += spring.dissipated_j;
-        if !columns.contains(&(storey, line)) {
-            columns.push((storey, line));
+        if !columns.contains(&(frame, member)) {
+            columns.push((frame, member));
         }
         let Some(failed_s) = spring.yielded_s else {
             continue;
         };
-        if !failed.contains(&(storey, line)) {
-            failed.push((storey, line));
+        if !failed.contains(&(frame, member)) {
+            failed.push((frame, member));
         }
         let global = system_building.spring_offset + spring.index;
         let memory = &run.outcome.state.springs[global];
@@ -38,7 +46,12 @@ pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureS
             continue;
         };
         list.push(ShearFailure {
-            column: format!("{}.column.{line}.{storey}", system_building.name),
+            column: name_of(
+                system_building,
+                frame.map(|frame| frame - 1),
+                &member.to_string(),
+            ),
+            along: axis.map(PlanAxis::name),
             at: match end {
                 MemberEnd::First => "foot",
                 MemberEnd::Last => "head",

@@ -7,7 +7,8 @@ use crate::model::{Gravity, STANDARD_GRAVITY};
 use crate::structure::element::{self, Element, ElementStiffness, Part, THETA, Y, over_nodes};
 use crate::structure::stick_elements;
 use crate::structure::{
-    AssembledBuilding, Discretization, MemberEnd, SpringPlace, StepEquations, StickModel,
+    AssembledBuilding, Discretization, MemberEnd, MemberPlace, SpringPlace, StepEquations,
+    StickModel,
 };
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
@@ -182,7 +183,12 @@ fn lean_on_shear_springs(discretization: &mut Discretization) {
         if !spring.hysteresis.is_some_and(falls) {
             continue;
         }
-        let Some(&SpringPlace::Shear { storey, end, .. }) = places.next() else {
+        let Some(&SpringPlace::Shear {
+            member: MemberPlace::Column { storey, .. },
+            end,
+            ..
+        }) = places.next()
+        else {
             return;
         };
         let below = storey.checked_sub(2).map_or(0.0, |floor| tops[floor]);

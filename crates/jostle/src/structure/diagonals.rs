@@ -10,6 +10,7 @@ use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
 use crate::model::{
     Diagonal, DiagonalPlace, FramePlace, PanelAcross, PanelDamage, PlanAxis, ProportionalDamping,
+    Reach, SpaceFrame,
 };
 
 /// A brace or a strut of a frame, as it stands in the stick model.
@@ -54,12 +55,19 @@ impl FrameDiagonal {
         }
     }
 
-    /// In a plane of a space frame whose lines along x have this direction.
-    pub(super) fn in_space(self, [c, s]: [f64; 2]) -> Self {
-        let direction = match self.place.line.map(|line| line.along) {
-            Some(PlanAxis::Y) => [-s, c],
-            _ => [c, s],
+    /// In a space frame: in a plane of its lines, or across them.
+    pub(super) fn in_space(self, frame: &SpaceFrame) -> Self {
+        let [c, s] = frame.direction;
+        let [x, y] = match (self.place.line.map(|line| line.along), self.place.reach) {
+            (_, Reach { across, .. }) if across != 0 => {
+                let [x, y] = frame.run(self.place).unwrap_or([1.0, 0.0]);
+                let length = libm::hypot(x, y);
+                [x / length, y / length]
+            }
+            (Some(PlanAxis::Y), _) => [0.0, 1.0],
+            _ => [1.0, 0.0],
         };
+        let direction = [c * x - s * y, s * x + c * y];
         Self { direction, ..self }
     }
 }

@@ -400,6 +400,7 @@ impl StickModel {
             node
         };
         self.ties.remove(&index_of((node, X)));
+        self.slides.insert(node);
         // The spring is parallel to the hinge, which then has no stiffness sideways.
         if let Some(hinge) = self.hinges.last_mut() {
             hinge.translational_stiffness[0] = Some(0.0);
@@ -571,9 +572,11 @@ pub(super) fn discretize_frame(
                     |shear: &&ShearSpring| end == MemberEnd::First || shear.ends == ShearEnds::Both;
                 if let Some(shear) = shear.filter(fails) {
                     *node = stick_model.shearing(joint, *node, shear.spring, end);
+                    let (line, storey) = (line + 1, storey + 1);
                     shear_places.push(SpringPlace::Shear {
-                        storey: storey + 1,
-                        line: line + 1,
+                        frame: None,
+                        member: MemberPlace::Column { line, storey },
+                        axis: None,
                         end,
                     });
                 }

@@ -108,6 +108,9 @@ impl StickModel {
         hysteresis: Hysteresis,
     ) -> usize {
         let end = self.add_following(joint, component);
+        if component == X {
+            self.slides.insert(end);
+        }
         let sign = if component == X { 1.0 } else { -1.0 };
         self.yielding.push(YieldingElement {
             row: over_nodes([((end, component), sign), ((joint, component), -sign)]),

@@ -36,7 +36,8 @@ pub(super) fn add_frames(
     // Hinges of a space frame come before.
     let first_place = sticks.hinges.len();
     let shared = tiers.shared_columns();
-    let (mut hinge_places, mut diagonal_places) = (Vec::new(), Vec::new());
+    let (mut hinge_places, mut shear_places) = (Vec::new(), Vec::new());
+    let mut diagonal_places = Vec::new();
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
         let mut discretized = discretize(plan_frame, &plan_frame.frame);
         if carry_weight {
@@ -68,7 +69,10 @@ pub(super) fn add_frames(
             .stick_model
             .split_places(discretized.spring_places);
         let in_frame = |place: SpringPlace| place.in_frame(index + 1);
-        hinge_places.extend(hinges.into_iter().filter_map(in_frame));
+        let hinges = hinges.into_iter().filter_map(in_frame);
+        let (shear, hinges): (Vec<_>, Vec<_>) = hinges.partition(SpringPlace::is_shear);
+        hinge_places.extend(hinges);
+        shear_places.extend(shear);
         diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
         let first_node = sticks.nodes.len();
         let before = [sticks.yielding.len(), 3 * sticks.surfaces.len()];
@@ -117,9 +121,10 @@ pub(super) fn add_frames(
     }
     let moving = mat.into_iter().map(|(node, _)| node);
     sticks.eliminate_after_joints(moving.chain(floors.iter().copied()), floors[0]);
-    // Hinges come before springs.
+    // Hinges come before springs, and these before what yields between any points.
     let before = first_place..first_place;
-    discretization.spring_places.splice(before, hinge_places);
+    let places = hinge_places.into_iter().chain(shear_places);
+    discretization.spring_places.splice(before, places);
     discretization.spring_places.extend(diagonal_places);
     discretization.frames = tiers
         .frames
@@ -217,7 +222,8 @@ impl StickModel {
         let mut feet = Vec::new();
         for (index, node) in frame.nodes.into_iter().enumerate() {
             let (node, floor) = self.node_in_plan(index, &node, place);
-            if let Some(floor) = floor {
+            // What slides has the mass of its joint with it, but not its displacement.
+            if let Some(floor) = floor.filter(|_| !frame.slides.contains(&index)) {
                 let components = [X, Y, THETA].map(|component| (floor, component));
                 let shares = node.influence[X].horizontal();
                 let moved = over_nodes(components.into_iter().zip(shares));

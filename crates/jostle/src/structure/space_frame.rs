@@ -93,8 +93,8 @@ struct End {
 /// Numbers of the displacements that a joint has by itself: rise and two rotations.
 type JointUnknowns = [Option<usize>; 3];
 
-/// The same that an end of a member has beyond hinges or fibres; `None` moves with its joint.
-pub(super) type EndUnknowns = [Option<usize>; 3];
+/// The same that an end of a member has beyond hinges or fibres, and how far it slides along the lines x and y; `None` moves with its joint.
+pub(super) type EndUnknowns = [Option<usize>; 5];
 
 impl End {
     /// A point of the rigid body of the same end, so far from it: u + ω × r.
@@ -110,8 +110,8 @@ impl End {
         self
     }
 
-    /// The end beyond hinges or fibres.
-    fn beyond(mut self, unknowns: EndUnknowns) -> Self {
+    /// The end beyond hinges or fibres. `sign`: of what it slides, positive where what is above moves further than what is below.
+    fn beyond(mut self, unknowns: EndUnknowns, sign: f64) -> Self {
         let [about_x, about_y, _] = &mut self.turned;
         for (to, unknown) in [&mut self.moved[2], about_x, about_y]
             .into_iter()
@@ -120,6 +120,9 @@ impl End {
             if let Some(number) = unknown {
                 *to = vec![(Unknown::End(number), 1.0)];
             }
+        }
+        for (to, slid) in self.moved.iter_mut().zip(&unknowns[3..]) {
+            to.extend(slid.map(|number| (Unknown::End(number), sign)));
         }
         self
     }
@@ -427,8 +430,8 @@ impl<'a> Assembly<'a> {
         let [first, last] = unknowns;
         let [a, b] = ends;
         let [a, b] = [
-            a.at(arm(rigid[0])).beyond(first),
-            b.at(arm(-rigid[1])).beyond(last),
+            a.at(arm(rigid[0])).beyond(first, 1.0),
+            b.at(arm(-rigid[1])).beyond(last, -1.0),
         ];
         let is_column = planes.len() == 2;
         let stretch = section.axial_rigidity.filter(|_| is_column);
@@ -446,7 +449,7 @@ impl<'a> Assembly<'a> {
         let parts = cuts.windows(2).enumerate().map(|(part, ends)| {
             let ((from, a), (to, b)) = (&ends[0], &ends[1]);
             let beyond = part.checked_sub(1).and_then(|point| at_points.get(point));
-            let a = &a.clone().beyond(beyond.copied().unwrap_or_default());
+            let a = &a.clone().beyond(beyond.copied().unwrap_or_default(), 1.0);
             let length = to - from;
             let bend = |plane: usize| {
                 let (towards, about, slope) = planes[plane];
@@ -473,25 +476,23 @@ impl<'a> Assembly<'a> {
     /// How much longer a diagonal becomes: the difference of the displacements of its ends along it. `offsets`: how far from the joints
     /// these are.
     pub(super) fn elongation(&self, place: DiagonalPlace, offsets: [f64; 2]) -> Deformation {
-        let Some(crossings) = place.crossings() else {
+        let Some((crossings, run)) = place.crossings().zip(self.frame.run(place)) else {
             return Deformation::new();
         };
-        let level = place.storey - 1;
-        let joints = [
-            self.end(level.checked_sub(1), crossings[0]),
-            self.end(Some(level), crossings[1]),
-        ];
-        let height = self.heights[level];
+        let [low, high] = place.floors();
+        let joints = [low, high].map(|floor| floor.checked_sub(1));
+        let joints = [0, 1].map(|end| self.end(joints[end], crossings[end]));
+        let height: f64 = self.heights[low..high].iter().sum();
         let [lower, upper] = offsets;
         let above = [lower, height - upper];
         let ends: Vec<End> = (joints.into_iter().enumerate())
             .map(|(end, joint)| match offsets[end] == 0.0 {
                 true => joint,
-                false => self.on_column(crossings[end], level, above[end]),
+                // Struts stand in one storey.
+                false => self.on_column(crossings[end], low, above[end]),
             })
             .collect();
-        let [from, to] = crossings.map(|[x, y]| [self.frame.lines_x[x], self.frame.lines_y[y]]);
-        let way = [to[0] - from[0], to[1] - from[1], above[1] - above[0]];
+        let way = [run[0], run[1], above[1] - above[0]];
         let length = libm::hypot(libm::hypot(way[0], way[1]), way[2]);
         let mut deformation = Deformation::new();
         for (axis, part) in way.into_iter().enumerate() {
@@ -600,7 +601,7 @@ pub(super) fn condense(
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
-        .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2], &[]))
+        .map(|member| assembly.springs(member.place, &member.section, Default::default(), &[]))
         .collect();
     let diagonals = frame.diagonals.iter();
     let diagonals = diagonals.map(|diagonal| {
@@ -727,20 +728,20 @@ impl Assembly<'_> {
         let ends = ends.filter_map(|(index, diagonal)| {
             let [lower, upper] = diagonal.place.crossings()?;
             let [from, to] = diagonal.offsets;
-            let of_storey = diagonal.place.storey == storey;
+            let [low, high] = diagonal.place.floors();
             // Ends at joints hang on the joint, those above it on the column above.
             let starts = match from == 0.0 {
-                true => diagonal.place.storey == storey + 1 && is_here(height),
-                false => of_storey && is_here(from),
+                true => low == storey && is_here(height),
+                false => low + 1 == storey && is_here(from),
             };
             let sign = match (lower == line, upper == line) {
                 (true, _) if starts => 1.0,
-                (_, true) if of_storey && is_here(height - to) => -1.0,
+                (_, true) if high == storey && is_here(height - to) => -1.0,
                 _ => return None,
             };
-            let bay = self.frame.bays(diagonal.place.line?.along)[diagonal.place.bay - 1];
-            let rise = self.heights[diagonal.place.storey - 1] - from - to;
-            Some((index, sign * rise / libm::hypot(bay, rise)))
+            let [x, y] = self.frame.run(diagonal.place)?;
+            let rise = self.heights[low..high].iter().sum::<f64>() - from - to;
+            Some((index, sign * rise / libm::hypot(libm::hypot(x, y), rise)))
         });
         ends.collect()
     }

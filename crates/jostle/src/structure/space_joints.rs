@@ -14,9 +14,11 @@ use super::member_forces::MemberPlace;
 use super::order::{Stage, Turn};
 use super::space_frame::{Assembly, Deformation, EndUnknowns, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
-use super::stick_model::{Hinge, Influence, Node, StickModel, Support};
+use super::stick_model::{Hinge, Influence, Node, StickModel, Support, YieldingElement};
 use crate::linear::Row;
-use crate::model::{PlanAxis, STANDARD_GRAVITY, SpaceFrame, SpaceMember, SpacePlace};
+use crate::model::{
+    PlanAxis, ProportionalDamping, STANDARD_GRAVITY, ShearEnds, SpaceFrame, SpaceMember, SpacePlace,
+};
 
 /// A column or a beam of a space frame with hinges, and its elements in the stick model.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,6 +123,7 @@ pub(super) fn add_space_joints(
         ends: Vec::new(),
         places: Vec::new(),
         sections: Vec::new(),
+        shear: Vec::new(),
     };
     let first_end = builder.sticks.nodes.len();
     let members = frame
@@ -162,6 +165,9 @@ pub(super) fn add_space_joints(
     // Hinges come before all else that yields.
     let fibres = sections.iter().filter(|section| !section.is_surface());
     places.extend(fibres.flat_map(FibreSection::places));
+    let (shear_places, shear): (Vec<_>, Vec<_>) = builder.shear.into_iter().unzip();
+    places.extend(shear_places);
+    builder.sticks.yielding.extend(shear);
     sticks.space_ends = first_end..sticks.nodes.len();
     AddedJoints {
         frame: JointedFrame {
@@ -371,11 +377,13 @@ struct Builder<'a> {
     ends: Vec<usize>,
     places: Vec<SpringPlace>,
     sections: Vec<FibreSection>,
+    shear: Vec<(SpringPlace, YieldingElement)>,
 }
 
 impl Builder<'_> {
     fn add_member(&mut self, member: &SpaceMember, direction: [f64; 2]) -> JointedMember {
         let mut ends = [EndUnknowns::default(); 2];
+        self.add_shear(member.place, &mut ends);
         for plane in [0, 1] {
             self.add_hinges(member, plane, &mut ends);
         }
@@ -449,6 +457,51 @@ impl Builder<'_> {
             torsion,
             weight: 0.0,
         }
+    }
+
+    /// Lets ends of a column slide against their joints, by springs that can fail.
+    fn add_shear(&mut self, place: SpacePlace, ends: &mut [EndUnknowns; 2]) {
+        for axis in PlanAxis::BOTH {
+            let Some(shear) = self.assembly.frame.shear.get(&(place, axis)) else {
+                continue;
+            };
+            for end in [MemberEnd::First, MemberEnd::Last] {
+                if end == MemberEnd::Last && shear.ends == ShearEnds::Foot {
+                    continue;
+                }
+                let number = self.ends.len();
+                let height = self.height(place, end);
+                let node = self.sticks.add_turning(Stage::Beams, number, height);
+                self.ends.push(node);
+                ends[end as usize][3 + axis.index()] = Some(number);
+                let place = SpringPlace::Shear {
+                    frame: None,
+                    member: MemberPlace::InSpace(place),
+                    axis: Some(axis),
+                    end,
+                };
+                let element = YieldingElement {
+                    row: over_nodes([((node, THETA), 1.0)]),
+                    hysteresis: shear.spring,
+                    proportional_damping: ProportionalDamping::None,
+                };
+                self.shear.push((place, element));
+            }
+        }
+    }
+
+    /// Floor on which an end of a member lies; what is below the floors is `None`.
+    fn floor(place: SpacePlace, end: MemberEnd) -> Option<usize> {
+        match (place, end) {
+            (SpacePlace::Column { storey, .. }, MemberEnd::First) => storey.checked_sub(1),
+            _ => Some(place.storey()),
+        }
+    }
+
+    /// Height of an end of a member above the base \[m\].
+    fn height(&self, place: SpacePlace, end: MemberEnd) -> f64 {
+        let moving = self.assembly.moving(Self::floor(place, end));
+        self.sticks.nodes[moving.map_or(self.ground, |moving| self.moving[moving])].y
     }
 
     /// Adds the ends of a member in a plane of bending, and the hinges between them and its joints.
@@ -597,25 +650,20 @@ impl Builder<'_> {
         motion: usize,
         ends: &mut [EndUnknowns; 2],
     ) -> (usize, usize) {
-        let level = place.storey();
-        let floor = match (place, end) {
-            (SpacePlace::Column { .. }, MemberEnd::First) => level.checked_sub(1),
-            _ => Some(level),
-        };
         let crossing = place.crossings()[end as usize];
-        let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[motion]);
-        let moving = self.assembly.moving(floor);
-        let at = self.sticks.nodes[moving.map_or(self.ground, |moving| self.moving[moving])];
+        let joint = Self::floor(place, end)
+            .and_then(|floor| self.assembly.joints.at(floor, crossing)[motion]);
+        let height = self.height(place, end);
         let joint = match joint {
             Some(unknown) => self.joints.start + unknown,
             None => {
                 let (assembly, sticks) = (&self.assembly, &mut *self.sticks);
-                let moved = sticks.add_foot_motion(assembly, crossing, motion, at.y);
+                let moved = sticks.add_foot_motion(assembly, crossing, motion, height);
                 moved.unwrap_or(self.ground)
             }
         };
         let number = self.ends.len();
-        let node = self.sticks.add_turning(Stage::Beams, number, at.y);
+        let node = self.sticks.add_turning(Stage::Beams, number, height);
         self.ends.push(node);
         ends[end as usize][motion] = Some(number);
         (joint, node)

@@ -81,10 +81,12 @@ pub enum SpringPlace {
     },
     /// Shear of a column, at its end.
     Shear {
-        /// Storey.
-        storey: usize,
-        /// Column line.
-        line: usize,
+        /// Its frame, where several stand in a plan.
+        frame: Option<usize>,
+        /// Its column.
+        member: MemberPlace,
+        /// Along which lines it slides, in a space frame.
+        axis: Option<PlanAxis>,
         /// Which end.
         end: MemberEnd,
     },
@@ -254,6 +256,10 @@ impl SpringPlace {
                     None => self.to_string(),
                 }
             }
+            Self::Shear { frame, .. } => match frame.and_then(of_frame) {
+                Some(name) => format!("frame {name}, {self}"),
+                None => self.to_string(),
+            },
             Self::Sliding { frame, member } => match frame.and_then(of_frame) {
                 Some(name) => format!("frame {name}, {}", sliding_in_words(member)),
                 None => self.to_string(),
@@ -326,6 +332,14 @@ impl SpringPlace {
                 end,
                 point,
                 fibre,
+            }),
+            Self::Shear {
+                member, axis, end, ..
+            } => Some(Self::Shear {
+                frame: Some(frame),
+                member,
+                axis,
+                end,
             }),
             _ => None,
         }
@@ -442,6 +456,15 @@ fn in_words(place: DiagonalPlace) -> String {
         };
         return format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}{off}");
     };
+    if place.reach != Reach::BAY
+        && let Some([from, to]) = place.crossings()
+    {
+        let [low, high] = place.floors();
+        let ([x, y], [to_x, to_y]) = (from.map(|line| line + 1), to.map(|line| line + 1));
+        return format!(
+            "{kind}, floor {low}, x = {x}, y = {y} to floor {high}, x = {to_x}, y = {to_y}"
+        );
+    }
     let [x, y] = line.crossing(bay - 1).map(|crossing| crossing + 1);
     let along = line.along.name();
     let towards = match place.rise {
@@ -511,12 +534,17 @@ impl std::fmt::Display for SpringPlace {
                 let end = end.of_beam();
                 write!(formatter, "beam {bay}, floor {floor}, {end}")
             }
-            Self::Shear { storey, line, end } => {
-                let end = end.of_column();
-                write!(
-                    formatter,
-                    "column {line}, storey {storey}, shear at the {end}"
-                )
+            Self::Shear {
+                member, axis, end, ..
+            } => {
+                match member {
+                    MemberPlace::Column { line, storey } => {
+                        write!(formatter, "column {line}, storey {storey}")?;
+                    }
+                    other => write!(formatter, "{other}")?,
+                }
+                write!(formatter, ", shear at the {}", end.of_column())?;
+                axis.map_or(Ok(()), |axis| write!(formatter, ", {}", axis.name()))
             }
             Self::ColumnInPlan {
                 frame,

@@ -1,6 +1,6 @@
 //! Lumped masses joined by massless beams, hinges and springs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::element::Element;
@@ -37,6 +37,8 @@ pub struct StickModel {
     /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their
     /// lines, and nodes that rise and sink with the rotation of a foundation.
     pub ties: BTreeMap<usize, Row>,
+    /// Nodes of member ends that slide sideways against the joints beside them.
+    pub slides: BTreeSet<usize>,
     /// How the rocking of a base in plan raises displacements that could rise by themselves too, as rows over that rocking.
     pub raised: BTreeMap<usize, Row>,
     /// Rigid ends of columns at joints.

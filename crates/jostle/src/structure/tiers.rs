@@ -186,7 +186,7 @@ pub(super) fn discretize_tiers(
                     let ends = diagonal.place.floors().map(level);
                     FrameDiagonal {
                         between_joints,
-                        ..FrameDiagonal::new(diagonal, ends, row).in_space(frame.direction)
+                        ..FrameDiagonal::new(diagonal, ends, row).in_space(frame)
                     }
                 });
         for space in found.collect::<Vec<_>>() {

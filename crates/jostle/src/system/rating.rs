@@ -84,6 +84,11 @@ impl MemberHinge {
         hinges.collect()
     }
 
+    /// Its index among the springs of the building.
+    pub(super) fn spring(&self) -> usize {
+        self.spring
+    }
+
     /// Its greatest ductility so far, either side \[–\]. `memories`: those of the springs of the building.
     pub(super) fn ductility(
         &self,

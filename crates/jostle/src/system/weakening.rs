@@ -2,7 +2,7 @@
 
 use super::rating::MemberHinge;
 use crate::hysteresis::HysteresisMemory;
-use crate::model::{Building, CapacityLine, Hinges};
+use crate::model::{Building, CapacityLine, FrameHinges, Hinges, Structure};
 use crate::structure::{AssembledBuilding, MemberPlace, SpringPlace};
 
 /// A column whose shear strength falls with the ductility of its hinges.
@@ -18,37 +18,59 @@ pub(crate) struct Weakening {
 impl Weakening {
     /// Every such column of a building.
     pub(super) fn all(model: &Building, building: &AssembledBuilding) -> Vec<Self> {
-        let Some(Hinges::Frame(hinges)) = &model.hinges else {
-            return Vec::new();
-        };
-        let rows = hinges.shear.iter().enumerate();
-        let columns = rows.flat_map(|(storey, row)| {
-            let lines = row.iter().enumerate();
-            lines.map(move |(line, column)| (storey + 1, line + 1, column))
-        });
-        let weakening = columns.filter(|(.., column)| !column.by_ductility.points().is_empty());
-        weakening
-            .map(|(storey, line, column)| {
-                let places = building.discretization.spring_places.iter().enumerate();
-                let places = places.filter(|(_, place)| match place {
-                    SpringPlace::Shear {
-                        storey: at,
-                        line: on,
-                        ..
-                    } => (storey, line) == (*at, *on),
-                    _ => false,
-                });
-                Self {
-                    shear: places.map(|(spring, _)| spring).collect(),
-                    hinges: MemberHinge::of_member(
-                        building,
-                        None,
-                        MemberPlace::Column { line, storey },
-                    ),
-                    strength: column.by_ductility.clone(),
+        let mut columns = Vec::new();
+        let mut add = |frame: Option<usize>, hinges: &FrameHinges| {
+            for (storey, row) in hinges.shear.iter().enumerate() {
+                for (line, shear) in row.iter().enumerate() {
+                    let (line, storey) = (line + 1, storey + 1);
+                    let member = MemberPlace::Column { line, storey };
+                    columns.push((frame, member, None, shear.by_ductility.clone()));
                 }
-            })
-            .filter(|column| !column.hinges.is_empty())
+            }
+        };
+        match (&model.hinges, &model.structure) {
+            (Some(Hinges::Frame(hinges)), _) => add(None, hinges),
+            (_, Structure::Tiers(tiers)) => {
+                for (frame, plan_frame) in tiers.frames.iter().enumerate() {
+                    add(Some(frame), &plan_frame.hinges);
+                }
+                let in_space = tiers.space_frame.iter().flat_map(|frame| &frame.shear);
+                columns.extend(in_space.map(|((place, axis), shear)| {
+                    let member = MemberPlace::InSpace(*place);
+                    (None, member, Some(*axis), shear.by_ductility.clone())
+                }));
+            }
+            _ => return Vec::new(),
+        }
+        let weakening = columns.into_iter();
+        let weakening = weakening.filter(|(.., line)| !line.points().is_empty());
+        let weakening = weakening.map(|(frame, member, axis, strength)| {
+            let places = &building.discretization.spring_places;
+            let shears = |place: &SpringPlace| match *place {
+                SpringPlace::Shear {
+                    frame: of,
+                    member: on,
+                    axis: along,
+                    ..
+                } => (of, on, along) == (frame.map(|frame| frame + 1), member, axis),
+                _ => false,
+            };
+            let shear = places.iter().enumerate().filter(|(_, place)| shears(place));
+            let mut hinges = MemberHinge::of_member(building, frame, member);
+            // Of a column that bends in two planes, those that yield as it slides.
+            hinges.retain(|hinge| match places[hinge.spring()] {
+                SpringPlace::InSpace { axis: own, .. } => axis == Some(own),
+                SpringPlace::Struck { axis: own, .. } => axis == own,
+                _ => true,
+            });
+            Self {
+                shear: shear.map(|(spring, _)| spring).collect(),
+                hinges,
+                strength,
+            }
+        });
+        weakening
+            .filter(|column| !column.hinges.is_empty() && !column.shear.is_empty())
             .collect()
     }
 

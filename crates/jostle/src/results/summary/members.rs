@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::capacity::{AcceptanceSummary, AxialFailureSummary, RatioSummary};
 use crate::quantity::{Quantity, Unit};
+use crate::structure::MemberPlace;
 
 /// Greatest forces of one column or beam.
 #[derive(Clone, Debug, Default, Serialize, PartialEq)]
@@ -11,6 +12,9 @@ pub struct MemberSummary {
     /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1; `J1.FRAME.column.LINE.STOREY` and so on where frames
     /// stand in a plan; `J1.column.X.Y.STOREY`, `J1.beam_x.FLOOR.X.Y` and `J1.beam_y.FLOOR.X.Y` in a space frame.
     pub name: String,
+    /// Where it is in its building.
+    #[serde(skip)]
+    pub place: Option<MemberPlace>,
     /// Name of the column that two frames share, whose axial forces are those of both frames together; absent for others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shared_column: Option<String>,

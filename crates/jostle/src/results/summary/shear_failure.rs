@@ -34,8 +34,11 @@ impl ShearFailureSummary {
 /// A column that failed in shear.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct ShearFailure {
-    /// Name of the column: `J1.column.LINE.STOREY`.
+    /// Name of the column: `J1.column.LINE.STOREY`, `A.FRAME.column.LINE.STOREY` or `A.column.X.Y.STOREY`.
     pub column: String,
+    /// Along which lines of a space frame it failed, `x` or `y`; absent for other columns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub along: Option<&'static str>,
     /// Where it failed: `foot` or `head`.
     pub at: &'static str,
     /// Instant of failure; 0 if self weight alone causes it \[s\].

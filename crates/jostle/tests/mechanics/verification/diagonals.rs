@@ -584,6 +584,7 @@ fn across_two_storeys(stiffness: f64) -> Diagonal {
     brace.place.reach = Reach {
         storeys: 2,
         bays: 2,
+        across: 0,
     };
     brace.stiffness = stiffness;
     brace.hysteresis = None;
@@ -746,6 +747,7 @@ fn a_brace_over_two_storeys_yields() {
         brace.place.reach = Reach {
             storeys: 2,
             bays: 2,
+            across: 0,
         };
         frame.diagonals.push(brace);
         let mut model = alone(framed("A", frame));

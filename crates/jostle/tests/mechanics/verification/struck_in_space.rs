@@ -1,14 +1,17 @@
 //! Slabs that strike columns of space frames between floors: plane frames as their limit, a frame of beam elements with twelve
 //! displacements each that other code assembles and integrates, modes against direct steps, mirrored sites, energies.
 
-use jostle::hysteresis::{Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule};
+use jostle::hysteresis::{
+    Backbone, ConcreteFall, Corners, FallingBranch, Hysteresis, HysteresisRule,
+};
+use jostle::model::CapacityLine;
 use jostle::{
     Analysis, Axial, Base, Building, ColumnFibres, ContactLaw, Damping, Diagonal, DiagonalKind,
     DiagonalPlace, Fibre, FibreMaterial, FloorPairs, Frame, FrameHinges, Gap, Gravity, GridLine,
     GroundMotion, Hinges, Isolation, Isolator, IsolatorDamping, LawKind, Level, MemberRequest,
-    Model, Outcome, PlanAxis, PlanPoint, Reach, RestitutionIs, Rise, Section, Shear, Solver,
-    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, Structure, StrutLine, Summary, System, Tier,
-    TierStorey, Tiers,
+    Model, Outcome, PlanAxis, PlanPoint, Reach, RestitutionIs, Rise, Section, Shear, ShearEnds,
+    ShearSpring, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, Structure, StrutLine,
+    Summary, System, Tier, TierStorey, Tiers,
 };
 use jostle_testkit::compare::{close, near};
 use jostle_testkit::models::rectangle;
@@ -539,21 +542,21 @@ fn points_take_their_mass_from_the_floors() {
     close(total, 2.0 * MASS + from_ground, MASS, 1e-14, "total mass");
 }
 
-type Dense = Vec<Vec<f64>>;
+pub(super) type Dense = Vec<Vec<f64>>;
 
 /// A frame of beam elements with six displacements at each end: u along x, across and up, then rotations about the same axes.
-struct Beams {
-    stiffness: Dense,
+pub(super) struct Beams {
+    pub(super) stiffness: Dense,
 }
 
 impl Beams {
-    fn new(nodes: usize) -> Self {
+    pub(super) fn new(nodes: usize) -> Self {
         Self {
             stiffness: vec![vec![0.0; 6 * nodes]; 6 * nodes],
         }
     }
 
-    fn add(&mut self, dofs: &[usize], matrix: &[&[f64]]) {
+    pub(super) fn add(&mut self, dofs: &[usize], matrix: &[&[f64]]) {
         for (row, i) in matrix.iter().zip(dofs) {
             for (value, j) in row.iter().zip(dofs) {
                 self.stiffness[*i][*j] += value;
@@ -562,7 +565,13 @@ impl Beams {
     }
 
     /// A member along an axis: EA, GJ, and EI of the deflection towards each of the other axes.
-    fn member(&mut self, ends: [usize; 2], axis: usize, length: f64, rigidities: [f64; 4]) {
+    pub(super) fn member(
+        &mut self,
+        ends: [usize; 2],
+        axis: usize,
+        length: f64,
+        rigidities: [f64; 4],
+    ) {
         let [axial, torsion, first, second] = rigidities;
         let [a, b] = ends.map(|end| 6 * end);
         for (offset, rigidity) in [(0, axial), (3, torsion)] {
@@ -594,7 +603,7 @@ impl Beams {
 }
 
 /// Tᵀ K T.
-fn transformed(matrix: &Dense, by: &Dense) -> Dense {
+pub(super) fn transformed(matrix: &Dense, by: &Dense) -> Dense {
     let n = by[0].len();
     let product: Dense = matrix
         .iter()
@@ -624,7 +633,7 @@ fn transformed(matrix: &Dense, by: &Dense) -> Dense {
 }
 
 /// Displacements of a frame over those that have mass, with everything else following: K of these, and how all follow.
-fn condensed(matrix: &Dense, kept: usize) -> (Dense, Dense) {
+pub(super) fn condensed(matrix: &Dense, kept: usize) -> (Dense, Dense) {
     // Gauss–Jordan on what follows, with the sides of what is kept.
     let n = matrix.len();
     let mut rows: Dense = matrix[kept..]
@@ -1111,6 +1120,119 @@ fn faults(buildings: Vec<Building>, floors: FloorPairs) -> String {
         .iter()
         .map(|fault| format!("{}: {}", fault.path, fault.problem));
     all.collect::<Vec<_>>().join("\n")
+}
+
+/// Columns that fail in shear below and above the point where they are struck bear no more there than their strength.
+#[test]
+fn struck_columns_fail_on_either_side() {
+    let mut frame = bay_by_bay(false);
+    let strength = 1.2e5;
+    let columns = frame
+        .members
+        .iter()
+        .filter_map(|member| match member.place {
+            SpacePlace::Column { storey, .. } => {
+                let height: f64 = STOREYS[storey];
+                let stiffness = 12.0 * member.section.flexural_rigidity[0] / height.powi(3);
+                let falling = FallingBranch {
+                    slope: 0.05 * stiffness,
+                    residual: 0.5 * strength,
+                };
+                let spring = ShearSpring {
+                    spring: Hysteresis::failing(1e4 * stiffness, strength, falling).expect("sound"),
+                    ends: ShearEnds::Both,
+                    by_ductility: CapacityLine::default(),
+                };
+                // Only the second line is struck.
+                let is_struck = member.place.crossings()[0][0] == 1;
+                is_struck.then_some(((member.place, PlanAxis::X), spring))
+            }
+            _ => None,
+        });
+    frame.shear = columns.collect();
+    let plan = rectangle(BAY[0] + GAP, 0.0, 8.0, BAY[1]);
+    let centre = [BAY[0] + GAP + 4.0, 0.5 * BAY[1]];
+    let other = beside(&SLABS, plan, centre);
+    let model = model(
+        vec![framed(frame), other],
+        on_columns(),
+        law(LawKind::Hertz, 1e9),
+        Solver::Riccati,
+    );
+    let (_, outcome, summary) = shaken(&model, &shaking());
+    let worst = outcome.energy.worst_imbalance;
+    assert!(worst < 1e-6, "{worst:e} of the energy is missing");
+    let own = &summary.buildings[0];
+    let failures = own.shear_failures.as_ref().expect("they can fail");
+    let at = |end: &str| failures.list.iter().any(|failure| failure.at == end);
+    assert!(
+        failures.total == 4 && at("foot") && at("head"),
+        "{failures:?}"
+    );
+    let mut compared = 0;
+    for member in own
+        .members
+        .iter()
+        .filter(|member| !member.struck.is_empty())
+    {
+        for end in &member.ends {
+            assert!(
+                end.shear_peak_n < 1.000_1 * strength,
+                "{}: {}",
+                member.name,
+                end.shear_peak_n
+            );
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 8);
+}
+
+/// Slabs of a narrower frame lie before the bay of a wider one: they meet no column of it, while its own slabs strike theirs. Where the
+/// plan reaches beyond the columns by more than the reach, these stand too far behind.
+#[test]
+fn slabs_that_meet_no_column_are_listed() {
+    let narrow = |y: f64| {
+        let mut frame = bay_by_bay(true);
+        frame.lines_y = vec![0.0, 3.0];
+        frame.at = [BAY[0] + GAP, y];
+        let mut narrow = framed(frame);
+        narrow.name = "B".to_owned();
+        let Structure::Tiers(tiers) = &mut narrow.structure else {
+            panic!("in plan");
+        };
+        tiers.storey_heights = vec![2.7, 3.4];
+        for floor in &mut tiers.floors {
+            let plan = rectangle(BAY[0] + GAP, y, BAY[0], 3.0);
+            *floor = Tier::uniform(MASS, plan).expect("an area");
+        }
+        narrow
+    };
+    let unmet = |wide: Building, y: f64| {
+        let buildings = vec![wide, narrow(y)];
+        let model = model(
+            buildings,
+            FloorPairs::All,
+            law(LawKind::Hertz, 5e8),
+            Solver::Modal,
+        );
+        assert_eq!(System::assemble(&model).err(), None);
+        model.unmet_columns()
+    };
+    let found = unmet(framed(bay_by_bay(true)), 1.0);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(
+        (found[0].gap, found[0].between, found[0].behind),
+        (0, [1, 0], false)
+    );
+    assert_eq!(found[0].floors, [1, 2]);
+    close(found[0].heights[1], 6.1, 1.0, 1e-12, "height");
+    assert_eq!(unmet(framed(bay_by_bay(true)), 3.0), []);
+    let mut deep = bay_by_bay(true);
+    deep.lines_x = vec![0.0, BAY[0] - 0.8];
+    let found = unmet(framed(deep), 3.0);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].behind && found[0].between == [1, 0]);
 }
 
 #[test]
