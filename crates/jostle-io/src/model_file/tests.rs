@@ -135,6 +135,11 @@ beam = { EI = 1 }
 axial = "flexible"
 floor_load = 1
 hinges = { rule = "fibre", length = 1, steel = { rule = "bilinear" }, limits = { spalling = 0.004 }, beam_rule = "takeda", beam = { yield = 1 } }
+[[building]]
+column = { EI = 1 }
+beam = { EI = 1 }
+axial = "flexible"
+hinges = { rule = "surface", length = 1, post_yield = 0.1, surface = { axial = [-1, 1], moment = [0, 1] } }
 "#,
     r#"
 [[building]]

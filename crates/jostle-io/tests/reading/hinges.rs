@@ -651,6 +651,11 @@ hinges = { rule = "fibre", length = 0.4 }
         "depth = \"500 mm\" }",
         "depth = \"500 mm\", steel = \"HRB400\", bars = \"12 d20\" }",
     );
+    let held =
+        "[[building.element]]\nat = [6, 5]\nstiffness = { x = 1e3, y = 60e6 }\n[[building.frame]]";
+    let with_bars = with_bars
+        .replace("[[building.frame]]", held)
+        .replace("at = [\"0 m\", \"0 m\"]", "at = [[0, 0], [0, 10]]");
     says(&with_bars, &["needs the weight of the building"]);
 }
 

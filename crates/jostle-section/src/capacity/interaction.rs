@@ -241,7 +241,8 @@ mod tests {
                 }
             }
             println!("{bars}: {low} {high}");
-            assert!(low > -0.005 && high < 0.02, "{bars}: {low} {high}");
+            // The curve is not quite convex: the polygon spans what is not.
+            assert!(low > -0.006 && high < 0.02, "{bars}: {low} {high}");
             let [tension, compression] = interaction.range();
             assert_eq!([corners[0][0], corners[11][0]], [-compression, -tension]);
         }

@@ -536,8 +536,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds hinges where a column is struck, in the planes in which its ends have some, or fibres as these have, and returns what the parts
-    /// above have beyond them.
+    /// Adds hinges where a column is struck, in the planes in which its ends have some, and returns what the parts above have beyond them.
     fn add_struck_hinges(&mut self, member: &SpaceMember) -> Vec<EndUnknowns> {
         let points = self.assembly.points.of(member.place);
         let points: Vec<(usize, bool)> = points
@@ -546,9 +545,6 @@ impl Builder<'_> {
         let mut all = Vec::with_capacity(points.len());
         for (index, (number, is_struck)) in points.into_iter().enumerate() {
             let mut beyond = EndUnknowns::default();
-            if is_struck {
-                self.add_struck_fibres(member.place, number, index + 1, &mut beyond);
-            }
             let planes = planes(member.place).iter().enumerate();
             for (plane, &(_, axis, slope)) in planes.filter(|_| is_struck) {
                 let Some(hysteresis) = member.hinges[plane] else {
@@ -576,44 +572,6 @@ impl Builder<'_> {
             all.push(beyond);
         }
         all
-    }
-
-    /// Adds what the part of a column above a point has beyond fibres there, and these, if both of its ends have some.
-    fn add_struck_fibres(
-        &mut self,
-        place: SpacePlace,
-        number: usize,
-        point: usize,
-        beyond: &mut EndUnknowns,
-    ) {
-        let all = &self.assembly.frame.fibres;
-        let fibres = all.get(&place).filter(|own| own.at_ends == [true; 2]);
-        let PointNodes {
-            rising, turning, ..
-        } = self.points[number];
-        let (Some(fibres), Some(rising)) = (fibres, rising) else {
-            return;
-        };
-        let below = [rising, turning[0], turning[1]];
-        let height = self.sticks.nodes[turning[0]].y;
-        let [rise, about_x, about_y] = [0, 1, 2].map(|motion| {
-            let above = self
-                .sticks
-                .add_turning(Stage::Beams, self.ends.len(), height);
-            beyond[motion] = Some(self.ends.len());
-            self.ends.push(above);
-            over_nodes([((above, THETA), 1.0), ((below[motion], THETA), -1.0)])
-        });
-        let rotations = vec![about_y.times(-1.0), about_x];
-        let member = MemberPlace::InSpace(place);
-        let end = MemberEnd::First;
-        let section = self
-            .sticks
-            .add_section(fibres, member, end, rise, rotations);
-        self.sections.push(FibreSection {
-            point: Some(point),
-            ..section
-        });
     }
 
     /// Adds the ends of a column beyond its fibres, and these.
