@@ -256,9 +256,14 @@ fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str, &str)) {
         if structure_yields(model) || model.base.isolation.is_some() || building.mass_kg <= 0.0 {
             continue;
         }
-        let shear = building.response.base_shear_peak_n / (STANDARD_GRAVITY * building.mass_kg);
+        let across = building
+            .in_plan
+            .map(|plan| [plan.base_shear_across_peak_n, plan.drift_across_peak]);
+        let [across_n, drift_across] = across.unwrap_or_default();
+        let shear = building.response.base_shear_peak_n.max(across_n);
+        let shear = shear / (STANDARD_GRAVITY * building.mass_kg);
         add(
-            building.response.drift_peak / YIELD_DRIFT,
+            building.response.drift_peak.max(drift_across) / YIELD_DRIFT,
             shear,
             &building.name,
             match panels_yield(model) {
