@@ -20,6 +20,7 @@ fn page() -> StudyPage {
     });
     StudyPage {
         kind: String::new(),
+        subject: "Two towers; el-centro (one record)".into(),
         title: "A <study> & more".into(),
         headline: vec!["The buildings pound in 5 of 6 cases.".into()],
         answers: vec![["Gap needed".into(), "137 mm".into(), "el-centro".into()]],

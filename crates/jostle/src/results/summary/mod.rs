@@ -146,6 +146,7 @@ impl Summary {
     /// What the checks found.
     pub const CHECKS: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("result_checks", "number of result checks, B1 to B12, that gave a note or a warning", |s| s.checks.iter().filter(|check| check.id.starts_with('B') && check.grade >= Grade::Note).count()).not_in_summary().in_study(),
+        Quantity::<Self>::whole("accuracy_met", "1 if the estimated errors are within the tolerance, otherwise 0", |s| usize::from(s.promise.met == Some(true))).not_in_summary().in_study(),
     ];
 }
 
