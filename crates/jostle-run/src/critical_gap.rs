@@ -43,6 +43,9 @@ pub struct CriticalGap {
     pub between: [String; 2],
     /// Name of the motion.
     pub motion: String,
+    /// Name of the motion across, if there is one.
+    #[serde(skip)]
+    pub across: Option<String>,
     /// Its peak \[m/s²\].
     pub pga_m_s2: f64,
     /// Width of the gap in the model, the least of several \[m\].
@@ -627,6 +630,8 @@ impl Search<'_> {
         let found = CriticalGap {
             between,
             motion: self.motion.name.clone(),
+            across: (self.motion.bearing.as_ref())
+                .and_then(|bearing| Some(bearing.across.as_ref()?.name.clone())),
             pga_m_s2: self.motion.peak(),
             model_gap_m: self.model.gaps[gap].width(),
             motion_is_reduced,

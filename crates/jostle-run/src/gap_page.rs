@@ -13,7 +13,7 @@ use crate::critical_gap::{CriticalGap, GapSet, gap_sets};
 use crate::error::RunError;
 use crate::numbers::{counted, kn, mm};
 use crate::replace::{FileKind, may_write};
-use jostle_io::shown::{FORCE, GROUND_ACCELERATION, LENGTH};
+use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_report::message;
 
 /// Page of the curves.
@@ -102,6 +102,7 @@ pub fn gap_curve_page(title: &str, found: &[CriticalGap]) -> String {
     render_study(&StudyPage {
         kind: message::force_over_gap().into(),
         title: title.into(),
+        subject: subject(&sets),
         headline: headlines(&sets),
         answers: answers.collect(),
         sections: sections.collect(),
@@ -119,6 +120,19 @@ fn governing(set: &GapSet<'_>) -> String {
     }
 }
 
+/// The motions, with that across them.
+fn subject(sets: &[GapSet<'_>]) -> String {
+    let motions = sets.first().map_or(&[][..], |set| &set.gaps[..]);
+    let [first] = motions else {
+        return message::several_records(motions.len());
+    };
+    let motion = message::one_record_of(&first.motion);
+    match &first.across {
+        Some(across) => message::motion_and_across(motion, across),
+        None => motion,
+    }
+}
+
 /// The tile of a pair: the gap needed, under which motion, and what the model has.
 fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
     let needed = set.governing.of_both_signs_m();
@@ -127,7 +141,8 @@ fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
         _ => format!(", {}", set.governing.between.join(" ↔ ")),
     };
     let there = required_width(set.governing.model_gap_m);
-    let mut note = message::governing_and_model(governing(set), there);
+    let height = message::height_m(HEIGHT.number(set.governing.height_m, 2));
+    let mut note = message::governing_and_model(governing(set), there, height);
     if set.gaps.len() > 1 {
         let scatter = message::mean_and_deviation(
             LENGTH.text(set.mean_m, 1),
@@ -300,6 +315,14 @@ fn sections_of(set: &GapSet<'_>) -> Vec<Section> {
     std::iter::once(curves).chain(rules).collect()
 }
 
+/// A width over the gap needed: never 1.00 below 1, where the buildings touch.
+fn ratio_in_words(ratio: f64) -> String {
+    match ratio < 1.0 && ratio > 0.995 {
+        true => format!("{:.4}", ratio.min(0.9999)),
+        false => format!("{ratio:.2}"),
+    }
+}
+
 /// Rules under one motion.
 fn rules_of(gap: &CriticalGap) -> Option<Section> {
     let heads = [
@@ -318,7 +341,7 @@ fn rules_of(gap: &CriticalGap) -> Option<Section> {
         vec![
             name,
             LENGTH.rounded_up(rule.gap_m),
-            ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
+            ratio.map_or("–".into(), ratio_in_words),
             worse.map_or("–".into(), |own| own.impact_count.to_string()),
             worse.map_or("–".into(), |own| kn(own.peak_force_n)),
             rule.source.clone(),
@@ -340,7 +363,7 @@ fn rules_of_records(set: &GapSet<'_>) -> Option<Section> {
             let ratio = rule.ratio_of_both_signs.or(rule.ratio);
             let width = LENGTH.rounded_up(rule.gap_m);
             let cell = match ratio {
-                Some(ratio) => format!("{width} ({ratio:.2})"),
+                Some(ratio) => format!("{width} ({})", ratio_in_words(ratio)),
                 None => width,
             };
             let row = match rows.iter().position(|row| row[0] == name) {

@@ -55,7 +55,8 @@ messages! {
     classes_chosen = "{class}, {storeys} storeys, next to {neighbour}, {beside} storeys; gap {gap} {mm}";
     classes_probability = "Probability of damage against intensity";
     classes_probability_axis = "probability";
-    classes_interval = "90 % interval [g]";
+    classes_interval = "90 % interval of the median with contact [g]";
+    classes_no_interval = "too few cases reached this state for an interval";
     classes_note = "note";
 
     // damage
@@ -543,6 +544,8 @@ messages! {
     storey_of(name, storey) = "{name}, storey {storey}";
     members_beyond_capacity = "Members beyond capacity";
     worst_member(member, kind, ratio) = "{member} in {kind}: {ratio} times its capacity";
+    without_known_capacity(members) = "; {members} more have no known capacity";
+    at_a_corner = ", at a corner of the plan";
     members_beyond_io_ls_cp = "Members beyond IO / LS / CP";
     worst_of_members(members, member, ratio) = "of {members}; {member} reaches {ratio} of its highest limit";
     ends_beyond_strains = "Column ends beyond strain limits";
@@ -653,6 +656,10 @@ messages! {
     the_deformed_shapes_need_javascript = "The deformed shapes need JavaScript.";
     direction_to_the(name) = " to the {name}";
     has_no_hinges_it(name) = "{name} has no hinges: it is elastic at any drift.";
+    the_weaker_side = " (the weaker side)";
+    the_curve_still_rises = ", where the analysis ends and the curve still rises";
+    count_of_events(count) = "({count})";
+    spaces_are_pushed_along_x = "Buildings in space are pushed along x only, and the drawing shows their frames along x. Head and foot are the ends of a column; x or y after them names the direction in which it bends.";
     was_not_pushed(name) = "{name} was not pushed.";
     resists_up(name, peak, curve, peak_2) = "{name} resists up to {peak} of its weight{curve}, at {peak_2} drift of the roof";
     it_first_yields(coefficient, direction) = "; it first yields at {coefficient} of the weight{direction}.";
@@ -700,7 +707,7 @@ messages! {
     and_p_delta = "; P-Delta";
     floor_shares = "Floor shares";
     from_the_ground_up(shares) = "{shares} % from the ground up";
-    bilinear_discretization(curve) = "Bilinear discretization{curve}";
+    bilinear_discretization(curve) = "Bilinear idealisation{curve}";
     yields_at = "Yields at";
     ends_at = "Ends at";
     stiffness_title = "Stiffness";
@@ -708,7 +715,7 @@ messages! {
     of_it(hardening) = "{hardening} of the initial stiffness";
     ductility_title = "Ductility";
     secant_through_60 = "Secant through 60 % of the yield strength; equal energy up to the greatest base shear (FEMA 356, 3.3.3.2.4).";
-    the_curve_is_too_close = "The curve is too close to linear for a bilinear discretization.";
+    the_curve_is_too_close = "The curve is too close to linear for a bilinear idealisation.";
     and_more(events) = "and {events} more";
     what_happened_in_order(curve) = "Sequence of events{curve}";
     roof_mm = "roof [{mm}]";
@@ -716,7 +723,7 @@ messages! {
     the_load_pattern_is_constant = "The load pattern is constant and the roof displacement is prescribed; base shear is the sum of the load. Displacements are relative to the state at rest and positive in the direction of the load.";
     hinges_are_linear_between = "Hinges are linear between their corners, so the curve is linear between events and independent of any step size.";
     the_curve_falls_where_p = "The curve falls where P-Delta exceeds the hardening of hinges, or where columns that failed in shear lose their strength. It ends at the target drift, when no resistance is left, or when a part fails although the roof displacement is controlled.";
-    a_hinge_cracks_or_yields = "A hinge cracks or yields when it first passes that point of its backbone on either side. A hinge that reloads passes a corner.";
+    a_hinge_cracks_or_yields = "A hinge cracks or yields when it first passes that point of its backbone on either side. A hinge that reloads passes a corner, and so does one whose stiffness changes once more after yield.";
     a_pushover_shows_strength = "A pushover shows strength and the order of yielding under one load. It does not include higher modes, cycles or impacts.";
 
     // section
@@ -808,11 +815,12 @@ messages! {
     displacement_of_a_corner_relative = "Displacement of a corner relative to the ground, x to the right and y upwards, both to the same scale; the dot follows the time of the page.";
     how_they_move_in_space = "How they move in space";
     view = "View";
+    oblique_view = "Oblique";
     from_the_side = "From the side";
     from_above = "From above";
     forces_in_kn = "forces in {kN}";
-    drag_to_turn_the_view = "Drag to rotate the view, also by touch or with the arrow keys; the wheel zooms.";
-    the_scene_in_space = "To scale; displacements, rotations and gaps are exaggerated by the same factor. Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest. The black arrow on the ground is the ground acceleration.";
+    drag_to_turn_the_view = "Drag to rotate the view, also by touch or with the arrow keys; after a click on it the wheel zooms.";
+    the_scene_in_space = "To scale; displacements, rotations and gaps are exaggerated by the same factor. Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest; discs and diamonds at joints: members that have cracked and that yield. The arrow on the ground is the ground acceleration.";
     faces_and_corners = "Faces and corners";
     between = "between";
     kind = "kind";
@@ -928,6 +936,8 @@ messages! {
     all_records_together_the_governs(statistic) = "All records together. The {statistic} governs.";
     quantity = "quantity";
     records = "Records";
+    member_in(member, kind) = "{member} in {kind}";
+    storey_one(storey) = "storey {storey}";
 
     // tables
     start = "start";
@@ -979,14 +989,15 @@ messages! {
     // jostle-run/gap_page
     force_over_gap = "Force over gap";
     one_row_per_width = "one row per width";
-    the_greatest_force_kn_comes(peak_force, width, sign) = " The greatest force, {peak_force} {kN}, occurs at a gap of {width} {mm}{sign}.";
+    the_greatest_force_kn_comes(peak_force, width, sign) = " The greatest force at the widths computed, {peak_force} {kN}, is at a gap of {width} {mm}{sign}.";
     the_motion_reversed = " with the motion reversed";
     motion_reversed(motion) = "{motion}, reversed";
     either_sign_of_the_motion = ", either sign of the motion";
     under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion}, peak {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
     under_any_record(records, pair, gap, sign, motion, strongest) = "Under {records} records: no impact between {pair} for gaps of {gap} {mm} or more{sign} (governing: {motion}).{strongest}";
     under_motion(motion) = " under {motion}";
-    governing_and_model(motion, width) = "{motion}; the model has {width}";
+    governing_and_model(motion, width, height) = "{motion}; closes first at {height}; the model has {width}";
+    motion_and_across(motion, across) = "{motion}; across: {across}";
     mean_and_deviation(mean, deviation) = "mean of all records {mean}, standard deviation {deviation}";
     two_records_are_no_design_value = "Two records give no design value: codes require 3, 7 or 11 records.";
     gap_of_the_model = "gap of the model";
@@ -1028,6 +1039,7 @@ messages! {
     the_model = "The model";
     find_any_value = "Find any value";
     damping_stiffness_column = "damping, stiffness, column …";
+    gap_follows_from_plans = "The gap follows from where the plans are: change at of a building to change it. No curve can be drawn over it.";
     record_of_the_list = "Record of the list";
     model_file = "Model file";
     text_of_the_model_file = "Text of the model file";
@@ -1061,7 +1073,7 @@ messages! {
     lateral_mode_shapes = "Lateral mode shapes";
     horizontal_displacement_greatest_1 = "horizontal displacement, greatest 1 [–]";
     displacement_or_rotation_greatest_1 = "displacement or rotation, greatest 1 [–]";
-    elevation_to_scale_dimensions(unit) = "Elevation to scale, dimensions in {unit}";
+    elevation_to_scale_dimensions(unit) = "Elevation to scale, gaps drawn wider; dimensions in {unit}";
     in_metres = "metres";
     in_feet = "feet";
     what_it_was_computed = "Program and inputs";
@@ -1168,7 +1180,9 @@ messages! {
     no_key_matches = "No key of the model file matches.";
     line_of_the_model(line) = "line {line}: ";
     the_model_has_a_fault = "The model has a fault. The results below are for the previous values.";
+    stopping = "Stopping …";
     stopped = "Stopped. The results below are for the previous values.";
+    stopped_before_results = "Stopped before the first result. Change values on the left, for example a larger tolerance, a shorter duration or fewer members; the model then runs again.";
     pinned = "pinned";
     now = "now";
     change = "change";
@@ -1275,6 +1289,9 @@ messages! {
     trial_axis = "trial";
     objective_over_varied_keys = "Objective over the varied keys";
     best_trials = "The best trials";
+    nearest_trials = "The trials that miss least";
+    nearest_trial(objective) = "Violates a condition: {objective} of the nearest trial";
+    smallest_so_far(objective) = "Smallest so far, not converged: {objective}";
 
     // jostle-study: suite
     suite_of_no_gap(records) = "{records} records, no gap.";
@@ -1369,7 +1386,14 @@ messages! {
     matters_most(factors) = "What matters most, {factors}.";
     matters_for(result, factors) = "for {result}: {factors}";
     then_of = ", then ";
-    impacts_from_intensity(name, value) = "The buildings touch from {name} {value} on.";
+    not_told_apart(one, other, cases) = "{one} and {other} (their 90 % limits overlap: {cases} cases do not rank them)";
+    one_record_of(record) = "{record} (one record)";
+    several_records(count) = "{count} records";
+    touch_at_this_gap(case) = "the buildings touch at this gap: {case}";
+    error_within_tolerance = "cases with an estimated numerical error within the tolerance";
+    worst_member_title = "Worst member";
+    mean_of_name(name) = "{name}, mean of cases";
+    impacts_from_intensity(name, below, value) = "The buildings first touch between {name} {below} and {value}.";
     impacts_at_every_intensity(name, value) = "The buildings touch at every {name} of the study, {value} and more.";
     one_law_rebounds(law, force, restitution) = "{law}: peak force {force}; the masses rebound with {restitution} of their closing speed.";
     laws_differ(count, force, most_force, restitution, most_restitution) = "Peak force of {count} laws {force} to {most_force}; the masses rebound with {restitution} to {most_restitution} of their closing speed.";
@@ -1392,7 +1416,7 @@ messages! {
     sensitivity_of_results = "Sensitivity";
     sobol_indices_remark = "Shares of the variance (Sobol indices): by itself, and including interactions with all others; lines are 90 % limits of resampled estimates. Shares below zero are scatter of the estimate and mean none.";
     morris_remark = "Elementary effects of moving a factor over its range (Morris): mean of absolute values, and standard deviation, which shows interactions and curvature.";
-    tornado_remark(low, high) = "Tornado: every factor by itself at its {low} % and {high} % quantile, the others in the middle.";
+    tornado_remark(low, high) = "Tornado: every factor by itself at its {low} % and {high} % quantile, the others in the middle; in the order of what both bars cover.";
     given_data_remark = "First order: share of the variance explained by the means over classes of one input, at most 20 classes with equal numbers of cases, corrected for bias. Rank correlation (Spearman): sign and strength of a monotonic trend.";
     results_over_inputs = "Results against inputs";
     dots_mean_and_band = "Dots: cases. Line: mean over classes of the input with equal numbers of cases; band: 16th to 84th percentile.";

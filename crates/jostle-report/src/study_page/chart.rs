@@ -73,11 +73,11 @@ pub enum Stroke {
 const WIDTH: f64 = 520.0;
 const HEIGHT: f64 = 300.0;
 const LEFT: f64 = 78.0;
-const RIGHT: f64 = 20.0;
+const RIGHT: f64 = 28.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 40.0;
-/// Colours of the style sheet.
-const COLOURS: usize = 7;
+/// Colours of the style sheet that many lines tell apart, in this order.
+const COLOURS: [&str; 7] = ["c0", "c1", "c2", "c3", "f2", "f0", "c6"];
 /// Series in a legend at most.
 const LEGEND: usize = 14;
 
@@ -85,22 +85,22 @@ const LEGEND: usize = 14;
 const LINE: f64 = 15.0;
 const LETTER: f64 = 8.0;
 
-/// The name of a dot that stands alone, or of a vertical line, and where it is written.
-struct DotName<'a> {
-    name: &'a str,
+/// The letter of a dot that stands alone, or the name of a vertical line, and where it is written.
+struct DotName {
+    name: String,
     dot: [f64; 2],
     at: [f64; 2],
 }
 
 impl Series {
-    /// Whether it is one dot, which has its name beside it.
+    /// Whether it is one dot, which has a letter beside it.
     fn is_alone(&self) -> bool {
         self.stroke == Stroke::Dots && self.points.len() == 1
     }
 }
 
 /// Names of vertical lines, one below the other, on the side that has more room.
-fn mark_names<'a>(chart: &'a Chart, px: &dyn Fn(f64) -> f64) -> Vec<DotName<'a>> {
+fn mark_names(chart: &Chart, px: &dyn Fn(f64) -> f64) -> Vec<DotName> {
     let named = chart.marks.iter().enumerate().map(|(row, mark)| {
         let at = px(mark.value);
         let width = LETTER * mark.name.chars().count() as f64;
@@ -109,7 +109,7 @@ fn mark_names<'a>(chart: &'a Chart, px: &dyn Fn(f64) -> f64) -> Vec<DotName<'a>>
             false => at + 4.0,
         };
         DotName {
-            name: &mark.name,
+            name: mark.name.clone(),
             dot: [at, TOP],
             at: [x, TOP + LINE * (row as f64 + 1.0)],
         }
@@ -117,24 +117,25 @@ fn mark_names<'a>(chart: &'a Chart, px: &dyn Fn(f64) -> f64) -> Vec<DotName<'a>>
     named.collect()
 }
 
-/// Names beside their dots, moved up or down until none covers another one.
-fn dot_names<'a>(
-    chart: &'a Chart,
-    px: &dyn Fn(f64) -> f64,
-    py: &dyn Fn(f64) -> f64,
-) -> Vec<DotName<'a>> {
+/// The letter of a dot; its name is in the legend.
+fn letter(index: usize) -> String {
+    char::from(b'a' + (index % 26) as u8).to_string()
+}
+
+/// Letters beside their dots, moved up or down until none covers another one.
+fn dot_names(chart: &Chart, px: &dyn Fn(f64) -> f64, py: &dyn Fn(f64) -> f64) -> Vec<DotName> {
     let mut names = mark_names(chart, px);
     let marks = names.len();
-    for series in chart.series.iter().filter(|own| own.is_alone()) {
+    for (index, series) in chart.series.iter().filter(|own| own.is_alone()).enumerate() {
         let dot = [px(series.points[0][0]), py(series.points[0][1])];
         let width = |name: &str| LETTER * name.chars().count() as f64;
-        let x = (dot[0] + 6.0).min(WIDTH - width(&series.name));
+        let x = (dot[0] + 6.0).min(WIDTH - LETTER);
         let is_free = |y: f64| {
             let inside = (TOP + LINE..HEIGHT - BOTTOM).contains(&y);
-            let covers = |other: &DotName<'_>| {
+            let covers = |other: &DotName| {
                 (other.at[1] - y).abs() < LINE
-                    && other.at[0] < x + width(&series.name)
-                    && x < other.at[0] + width(other.name)
+                    && other.at[0] < x + LETTER
+                    && x < other.at[0] + width(&other.name)
             };
             inside && !names.iter().any(covers)
         };
@@ -144,7 +145,7 @@ fn dot_names<'a>(
         });
         let y = steps.into_iter().find(|y| is_free(*y));
         names.push(DotName {
-            name: &series.name,
+            name: letter(index),
             dot,
             at: [x, y.unwrap_or(dot[1] - 4.0)],
         });
@@ -201,7 +202,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
             };
             format!("--c:color-mix(in oklab, var(--{to}) {share:.0}%, var(--{from}))")
         }
-        _ => format!("--c:var(--c{})", number % COLOURS),
+        _ => format!("--c:var(--{})", COLOURS[number % COLOURS.len()]),
     };
     let named: Vec<&Series> = chart
         .series
@@ -216,6 +217,9 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                 span.legend {
                     @for series in named.iter().take(LEGEND) {
                         span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed].dots[series.stroke == Stroke::Dots] {} (series.name) }
+                    }
+                    @for (index, series) in chart.series.iter().filter(|own| own.is_alone()).enumerate() {
+                        span.key style=(colour(series.colour)) { span.swatch.dots {} (letter(index)) " " (series.name) }
                     }
                     @if named.len() > LEGEND { span.key { (message::and_more(named.len() - LEGEND)) } }
                 }
@@ -276,7 +280,7 @@ mod tests {
     fn names_of_dots_do_not_cover_each_other() {
         let dot = |at: usize| Series {
             name: format!("GB 50011, intensity {at}"),
-            points: vec![[100.0 + at as f64, 50.0 - 0.1 * at as f64]],
+            points: vec![[100.0 + 0.1 * at as f64, 50.0 - 0.1 * at as f64]],
             band: Vec::new(),
             stroke: Stroke::Dots,
             colour: 0,

@@ -20,8 +20,6 @@ pub use suite::{SuitePage, SuiteRow, render_suite};
 
 const OWN_STYLE: &str = include_str!("../../assets/study.css");
 
-/// Characters beyond which a fact is no heading.
-const WORDY: usize = 24;
 /// Characters beyond which a cell of a table is broken into lines.
 const LONG: usize = 60;
 
@@ -41,6 +39,8 @@ pub struct StudyPage {
     pub kind: String,
     /// Title.
     pub title: String,
+    /// Model and records, as far as the title does not name them; may be empty.
+    pub subject: String,
     /// What it says, in sentences.
     pub headline: Vec<String>,
     /// The answers, before the facts: name, value and what it refers to.
@@ -106,11 +106,13 @@ pub fn render_study(page: &StudyPage) -> String {
                     div {
                         p.kicker { (kind) }
                         h1 { (page.title) }
+                        @if !page.subject.is_empty() { p.quiet { (page.subject) } }
                     }
                     (theme_button())
                 }
                 main {
-                    @for sentence in &page.headline { p.verdict { (sentence) } }
+                    @let (first, others) = page.headline.split_at(page.headline.len().min(1));
+                    @for sentence in first { p.verdict { (sentence) } }
                     @if !page.answers.is_empty() {
                         div.tiles {
                             @for [name, value, note] in &page.answers {
@@ -118,10 +120,9 @@ pub fn render_study(page: &StudyPage) -> String {
                             }
                         }
                     }
-                    div.tiles {
-                        @for (name, value) in &page.facts {
-                            div.tile { div.tile-name { (name) } div.tile-value.study-value.in-words[value.chars().count() > WORDY] { (value) } }
-                        }
+                    @for sentence in others { p.study-said { (sentence) } }
+                    @if !page.facts.is_empty() {
+                        dl.study-facts { @for (name, value) in &page.facts { div { dt { (name) } dd { (value) } } } }
                     }
                     @if !page.maps.is_empty() { (maps(page)) }
                     @for section in &page.sections { (charts(section)) }

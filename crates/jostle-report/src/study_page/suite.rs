@@ -137,6 +137,8 @@ pub fn render_suite(page: &SuitePage) -> String {
 
 fn quantities(page: &SuitePage) -> Markup {
     let governs = if page.statistic == "mean" { 2 } else { 5 };
+    // The greatest is not told twice.
+    let shown = |column: usize| column != 5 || page.statistic == "mean";
     html! {
         section #governing {
             h2 { (message::governing_values()) }
@@ -145,13 +147,14 @@ fn quantities(page: &SuitePage) -> Markup {
                 table {
                     thead { tr {
                         th scope="col" { (message::quantity()) }
-                        @for name in quantity_columns() { th.number[name != message::of_record()] scope="col" { (name) } }
+                        @for (index, name) in quantity_columns().into_iter().enumerate() { @if shown(index + 1) { th.number[name != message::of_record()] scope="col" { (name) } } }
                     } }
                     tbody {
                         @for row in &page.quantities {
                             tr {
                                 @for (index, cell) in row.iter().enumerate() {
-                                    @if index == 0 { th scope="row" { (cell) } }
+                                    @if !shown(index) {}
+                                    @else if index == 0 { th scope="row" { (cell) } }
                                     @else if index == 1 { td.number { b { (grouped(cell)) } } }
                                     @else if index == 6 { td { (cell) } }
                                     @else { td.number.governs[index == governs] { (grouped(cell)) } }

@@ -422,7 +422,16 @@ pub(super) fn damping(tree: &ModelTree, input: &Input) -> Vec<Block> {
     };
     let places = (0..count).flat_map(place).collect();
     let mut blocks = around("damping", places, Spread::LogNormal(0.3, Some(2.5)));
+    let several = blocks.len() > 1;
     for block in &mut blocks {
+        // A factor of one building is named by it.
+        let is_of = |index: &usize| {
+            let own = format!("building[{index}].");
+            block.paths.iter().all(|path| path.starts_with(&own))
+        };
+        if let Some(index) = (0..count).find(is_of).filter(|_| several) {
+            block.name = format!("damping of {}", input.model.buildings[index].name);
+        }
         let paths = std::mem::take(&mut block.paths);
         block.paths = for_all(paths, "building", "damping.ratio", count);
     }

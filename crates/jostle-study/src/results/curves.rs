@@ -133,28 +133,35 @@ impl Results<'_> {
         })
     }
 
-    /// Demand over intensity, one curve for every combination of the other factors, with fractiles.
-    /// Says from which intensity on there are impacts.
+    /// The axis of an intensity: that of the factor that sets it, in its unit.
+    fn intensity_axis(&self, intensity: &str) -> (jostle_report::Axis, f64) {
+        let mut factors = self.study.file.factors.iter();
+        let sets = |path: &String| path == "motion.pga" && intensity == "pga_m_s2";
+        let factor = factors.position(|factor| !factor.multiplies && factor.paths.iter().any(sets));
+        factor.map_or_else(|| words::axis(intensity), |factor| self.input_axis(factor))
+    }
+
+    /// Says between which intensities impacts begin.
     fn say_first_impact(&mut self, intensity: &str) {
         let impacts = self.table.column("impact_count");
         let cases = self.table.column(intensity).iter().zip(impacts);
         let known = cases.filter_map(|(value, count)| Some(((*value)?, (*count)?)));
-        let least = |touch: bool| {
-            let own = known.clone().filter(|(_, count)| (*count > 0.0) == touch);
-            own.map(|(value, _)| value).min_by(f64::total_cmp)
-        };
-        let (axis, size) = words::axis(intensity);
+        let touching = known.clone().filter(|(_, count)| *count > 0.0);
+        let least = touching.map(|(value, _)| value).min_by(f64::total_cmp);
+        let (axis, size) = self.intensity_axis(intensity);
         let shown = |value: f64| jostle_report::with_unit(size * value, &axis.unit);
-        let said = match least(true) {
-            Some(from) if least(false).is_none_or(|free| free >= from) => {
-                message::impacts_at_every_intensity(&axis.name, shown(from))
-            }
-            Some(from) => message::impacts_from_intensity(&axis.name, shown(from)),
-            None => return,
+        let Some(from) = least else { return };
+        let below = known
+            .filter(|(value, _)| *value < from)
+            .map(|(value, _)| value);
+        let said = match below.max_by(f64::total_cmp) {
+            None => message::impacts_at_every_intensity(&axis.name, shown(from)),
+            Some(below) => message::impacts_from_intensity(&axis.name, shown(below), shown(from)),
         };
         self.said.push(said);
     }
 
+    /// Demand over intensity, one curve for every combination of the other factors, with fractiles.
     pub(super) fn idas(&mut self) -> Result<Vec<Section>, StudyError> {
         let mut sections = Vec::new();
         for (number, wanted) in self.study.file.idas.clone().iter().enumerate() {
@@ -177,7 +184,7 @@ impl Results<'_> {
             }
             let groups = self.grouped(&self.others(&along));
             let (x, x_size) = words::axis(&wanted.demand);
-            let (y, y_size) = words::axis(&wanted.intensity);
+            let (y, y_size) = self.intensity_axis(&wanted.intensity);
             let mut curves: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
             for (name, cases) in groups.iter().take(MOST_CURVES) {
                 let mut points: Vec<[f64; 2]> = cases

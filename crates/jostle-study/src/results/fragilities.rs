@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use jostle::linear::sort_by;
 use jostle_io::{FragilityMethod, FragilityWanted, Values};
 use jostle_report::message;
-use jostle_report::{Axis, Chart, Section, Series, Stroke, with_unit};
+use jostle_report::{Axis, Chart, Section, Series, Stroke, with_three_digits};
 
 use super::{Results, words};
 use crate::statistics::{
@@ -192,7 +192,7 @@ fn in_words(wanted: &FragilityWanted, fitted: &[Fitted]) -> String {
         let found = match &one.curve {
             Ok(curve) => {
                 let fit = curve.equivalent();
-                let median = with_unit(size * fit.median, &axis.unit);
+                let median = with_three_digits(size * fit.median, &axis.unit);
                 format!("{median} (β {:.2})", fit.dispersion)
             }
             Err(error) => error.to_string(),
@@ -445,10 +445,10 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
                     true => message::extrapolated(),
                     false => "",
                 };
-                let median = with_unit(size * curve.median, &x.unit);
+                let median = with_three_digits(size * curve.median, &x.unit);
                 row.push(format!("{median}{mark}"));
                 row.push(band.as_ref().map_or("–".into(), |band| {
-                    let [low, high] = band.median.map(|end| with_unit(size * end, ""));
+                    let [low, high] = band.median.map(|end| with_three_digits(size * end, ""));
                     message::low_to_high(low, high)
                 }));
                 row.push(format!("{:.3}", curve.dispersion));

@@ -42,7 +42,10 @@ impl Results<'_> {
                     inside[row * columns.len() + column].push(case);
                 }
             }
-            let (value, size) = words::axis(shown);
+            let (mut value, size) = words::axis(shown);
+            if inside.iter().any(|cases| cases.len() > 1) {
+                value.name = message::mean_of_name(&value.name);
+            }
             let (x, x_size) = self.input_axis(right);
             let (y, y_size) = self.input_axis(up);
             let cell = |cases: &Vec<usize>| {

@@ -3,6 +3,7 @@
 mod curves;
 mod fragilities;
 mod groups;
+mod head;
 mod maps;
 mod needed;
 mod rankings;
@@ -22,10 +23,10 @@ use jostle_io::{
     write_values_parquet,
 };
 use jostle_report::message;
-use jostle_report::{Axis, Section, StudyPage, render_study, typeset};
+use jostle_report::{Axis, Section, StudyPage, render_study};
 
 use crate::dataset::{Table, visit_parts};
-use crate::key_words::{key_in_words, label_in_words};
+use crate::key_words::key_in_words;
 use crate::layout::Kind;
 use crate::runner::run_folder;
 use crate::study::{Study, StudyError};
@@ -60,6 +61,8 @@ struct Results<'a> {
     files: Vec<(String, String)>,
     /// Further sentences for the head of the page.
     said: Vec<String>,
+    /// The gap needed at the strongest intensity, and its note, where widths were varied.
+    needed: Option<[String; 2]>,
 }
 
 /// What the head of the page says of all cases.
@@ -72,6 +75,7 @@ struct Counts {
     most: f64,
     failed: usize,
     failures: Vec<(u64, String)>,
+    greatest: head::Greatest,
 }
 
 impl Counts {
@@ -82,6 +86,7 @@ impl Counts {
         self.touched += impacts.filter(|count| **count > 0.0).count();
         let forces = rows.column("peak_force_n").iter().flatten();
         self.most = forces.copied().fold(self.most, f64::max);
+        self.greatest.add(first, rows);
         let text = |name: &str, row: usize| {
             let texts = rows.texts.get(name).and_then(|texts| texts.get(row));
             texts.map_or("", |text| &text[..])
@@ -120,6 +125,8 @@ fn written(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError
     for ida in &study.file.idas {
         wanted.extend([&ida.intensity[..], &ida.demand]);
     }
+    let answers = head::columns(study);
+    wanted.extend(answers.iter().map(|name| &name[..]));
     let over_angle = roses::columns(study);
     wanted.extend(over_angle.iter().map(|name| &name[..]));
     let responses = rankings::responses(study);
@@ -140,6 +147,7 @@ fn written(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError
         kept: kept(folder),
         files: vec![("cases/*.parquet".into(), message::one_row_a_case().into())],
         said: Vec::new(),
+        needed: None,
     };
     if csv || study.design.cases <= MOST_IN_CSV {
         write_csv(study, folder)?;
@@ -158,7 +166,7 @@ fn written(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError
     sections.extend(results.scatter(&responses));
     sections.extend(results.rankings(&responses)?);
     sections.extend(results.selection()?);
-    let page = results.page(maps, sections);
+    let page = results.page(maps, sections)?;
     write_atomically(&folder.join("report.html"), render_study(&page).as_bytes())?;
     let mut said = page.headline.join("\n");
     said += &format!("\nreport: {}", folder.join("report.html").display());
@@ -247,8 +255,9 @@ impl Results<'_> {
         mut self,
         maps: Vec<(String, Vec<jostle_report::HeatMap>)>,
         sections: Vec<Section>,
-    ) -> StudyPage {
+    ) -> Result<StudyPage, StudyError> {
         let study = self.study;
+        let (subject, answers) = (self.subject(), self.answers()?);
         let failures = std::mem::take(&mut self.counts.failures);
         let Counts {
             known,
@@ -294,28 +303,17 @@ impl Results<'_> {
                 .into_iter()
                 .map(|one| (capital(&key_in_words(&one.name)), one.values_in_words())),
         );
-        let runs = study.file.histories.iter().filter_map(|case| {
-            let choices = study.design.choices(*case, &study.file.factors);
-            let what: Vec<String> = study
-                .file
-                .factors
-                .iter()
-                .zip(&choices)
-                .map(|(factor, choice)| {
-                    format!(
-                        "{} {}",
-                        key_in_words(&factor.name),
-                        typeset(label_in_words(&crate::design::value_of(factor, choice).2))
-                    )
-                })
-                .collect();
-            Some((*case, what.join(", "), self.link(*case)?))
+        let runs = study.file.histories.iter();
+        let runs = runs.filter_map(|case| {
+            let link = self.link(*case)?;
+            Some((*case, self.case_in_words(*case, usize::MAX), link))
         });
-        StudyPage {
+        Ok(StudyPage {
             kind: String::new(),
             title: study.file.title.clone(),
+            subject,
             headline,
-            answers: Vec::new(),
+            answers,
             facts,
             maps,
             sections,
@@ -325,7 +323,7 @@ impl Results<'_> {
             // The folder knows its study and its model, wherever these came from.
             command: format!("jostle study {}", words::argument(self.folder)),
             files: self.files,
-        }
+        })
     }
 }
 

@@ -167,6 +167,11 @@ impl Results<'_> {
             }
         };
         let intensity = |level: f64| jostle_report::with_unit(size * level, &axis.unit);
+        let strongest = levels.iter().zip(&most).next_back();
+        self.needed = strongest.map(|(level, gap)| {
+            let value = format!("{} {}", width(*gap), LENGTH.name());
+            [value, message::at_at(intensity(*level))]
+        });
         let named = spread(levels.len(), SAID_LEVELS);
         let join = |text: &dyn Fn(usize) -> String| {
             let all: Vec<String> = named.iter().map(|at| text(*at)).collect();

@@ -132,21 +132,32 @@ impl Results<'_> {
                 continue;
             }
             let weight = |line: &Line| match kind {
-                DesignKind::OneAtATime => (line.numbers[1] - line.numbers[0]).abs(),
+                // What both bars cover: they may be on one side.
+                DesignKind::OneAtATime => {
+                    let ends = line.numbers.map(|end| end - centre);
+                    ends[0].max(ends[1]).max(0.0) - ends[0].min(ends[1]).min(0.0)
+                }
                 DesignKind::Saltelli => line.numbers[1],
                 _ if sampled => line.numbers[0],
                 _ => line.numbers[0],
             };
             sort_by(&mut response_lines, |a, b| weight(b).total_cmp(&weight(a)));
-            most.push(message::matters_for(
-                &axis.name,
-                response_lines
-                    .iter()
-                    .take(2)
-                    .map(|line| key_in_words(&line.factor))
-                    .collect::<Vec<_>>()
-                    .join(message::then_of()),
-            ));
+            let name = |line: &Line| key_in_words(&line.factor);
+            // Total shares whose limits overlap have no order.
+            let told_apart = |a: &Line, b: &Line| match (a.limits, b.limits) {
+                (Some([_, a]), Some([_, b])) => a[0] > b[1],
+                _ => true,
+            };
+            let first = match &response_lines[..] {
+                [first, second, ..] if told_apart(first, second) => {
+                    [name(first), name(second)].join(message::then_of())
+                }
+                [first, second, ..] => {
+                    message::not_told_apart(name(first), name(second), self.study.design.cases)
+                }
+                all => all.iter().map(name).collect(),
+            };
+            most.push(message::matters_for(&axis.name, first));
             let shares = sampled || kind == DesignKind::Saltelli;
             let size = if shares { 1.0 } else { size };
             bars.push(Bars {

@@ -56,16 +56,7 @@ fn usual(study: &Study) -> Vec<String> {
     };
     let names = study.layout.names();
     let mut wanted: Vec<String> = OF_ALL.map(str::to_owned).to_vec();
-    let pairs = || {
-        let gaps = input.model.gaps.iter();
-        gaps.map(|gap| {
-            let name = |side: Option<usize>| {
-                side.and_then(|index| input.model.buildings.get(index))
-                    .map_or("wall", |building| &building.name[..])
-            };
-            gap.between.map(name).join("-")
-        })
-    };
+    let pairs = || super::head::pairs(&input).map(|pair| pair.join("-"));
     for quantity in OF_GAPS {
         // That of the only gap is that of all.
         if quantity != "peak_force_n" || input.model.gaps.len() > 1 {
@@ -265,7 +256,7 @@ impl Results<'_> {
         };
         self.said.push(message::gap_needed_at_angle(
             owner_of(&curve.column),
-            LENGTH.rounded_up(*gap),
+            with_unit(LENGTH.of(*gap), ""),
             degrees(*angle),
         ));
     }

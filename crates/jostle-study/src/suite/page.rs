@@ -199,10 +199,15 @@ impl SuiteResults {
     /// Governing values of what decides, each the greatest of all gaps or buildings: force, gap, drift, damage.
     fn tiles(&self) -> Vec<[String; 3]> {
         // Ends of names of one kind: the greatest of them has the tile.
-        const KINDS: [&[&str]; 8] = [
-            &[".peak_force_n"],
+        const KINDS: [&[&str]; 10] = [
             &[".closing_without_contact_m"],
+            &[".peak_force_n"],
+            &[".capacity_ratio"],
             &[".drift_peak", ".drift_across_peak", ".drift_corner_peak"],
+            &[
+                ".total_acceleration_peak_m_s2",
+                ".total_acceleration_across_peak_m_s2",
+            ],
             &[".stroke_peak_m"],
             &[".storey_shear_peak_n"],
             &[".hinges_yielded"],
@@ -223,12 +228,16 @@ impl SuiteResults {
                 let text = format!("{} {}", form.number(value), form.unit);
                 text.trim_end().to_owned()
             };
-            let record = self.records[quantity.maximum_record].motion();
+            let worst = &self.records[quantity.maximum_record];
+            let record = match place(&worst.summary, &quantity.name) {
+                Some(place) => format!("{place}; {}", worst.motion()),
+                None => worst.motion().to_owned(),
+            };
             [
                 name.clone(),
                 with_unit(quantity.governing),
                 match quantity.governing == quantity.maximum {
-                    true => record.to_owned(),
+                    true => record,
                     false => message::greatest_value_of_record(
                         statistic,
                         with_unit(quantity.maximum),
@@ -335,6 +344,45 @@ impl SuiteResults {
             ..Section::default()
         })
     }
+}
+
+/// Where a record has a quantity of a gap or a building: the contact, the member, the storey or the floor.
+fn place(summary: &Value, name: &str) -> Option<String> {
+    let (owner, key) = name.rsplit_once('.')?;
+    let greatest = |owners: &mut dyn Iterator<Item = &Value>, key: &str| {
+        let known = owners.filter_map(|owner| Some((owner.clone(), owner[key].as_f64()?)));
+        known
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(owner, _)| owner)
+    };
+    if key == "peak_force_n" {
+        let gap = list(summary, "gaps").find(|gap| {
+            let names: Vec<&str> = list(gap, "between").filter_map(Value::as_str).collect();
+            names.join("-") == owner
+        })?;
+        let contact = greatest(&mut list(gap, "contacts"), key)?;
+        let floor = |side: usize| contact["floors"][side].as_u64();
+        return Some(match (floor(0), floor(1)) {
+            (Some(left), Some(right)) if left == right => message::floor_one(left),
+            (Some(left), Some(right)) => message::floors_and(left, right),
+            _ => message::height_m(HEIGHT.number(contact["height_m"].as_f64()?, 2)),
+        });
+    }
+    let building = list(summary, "buildings").find(|building| building["name"] == owner)?;
+    if key == "capacity_ratio" {
+        let worst = &building["capacity"]["worst"];
+        let [member, kind] = ["member", "kind"].map(|key| worst[key].as_str().unwrap_or_default());
+        return Some(message::member_in(member, kind));
+    }
+    let (of_storey, key) = match key.contains("drift") {
+        true => (true, format!("storey_{key}")),
+        false => (false, key.to_owned()),
+    };
+    let floor = greatest(&mut list(building, "floors"), &key)?["floor"].as_u64()?;
+    Some(match of_storey {
+        true => message::storey_one(floor),
+        false => message::floor_one(floor),
+    })
 }
 
 fn axis(name: &str, unit: &str) -> Axis {

@@ -150,10 +150,18 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
             format!("{name}.without_contact.base_shear_peak_n"),
             building["without_contact"]["base_shear_peak_n"].as_f64(),
         );
-        let apart = |floor: &Value| floor["without_contact"]["storey_drift_peak"].as_f64();
+        let apart = |floor: &Value, key: &str| floor["without_contact"][key].as_f64();
+        add(
+            format!("{name}.without_contact.roof_displacement_peak_m"),
+            roof.and_then(|roof| displacement(&roof["without_contact"])),
+        );
         add(
             format!("{name}.without_contact.drift_peak"),
-            greatest(&apart),
+            greatest(&|floor| apart(floor, "storey_drift_peak")),
+        );
+        add(
+            format!("{name}.without_contact.total_acceleration_peak_m_s2"),
+            greatest(&|floor| apart(floor, "total_acceleration_peak_m_s2")),
         );
         for floor in &floors {
             let place = format!("{name}.floor{}", floor["floor"].as_u64().unwrap_or(0));
