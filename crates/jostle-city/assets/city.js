@@ -173,12 +173,16 @@ const detail = () => {
   // A hint to click is of no use on paper.
   box.classList.toggle("screen", chosen < 0);
   if (chosen < 0) { box.innerHTML = "<h3>No building chosen</h3><p class=\"quiet\">Click a building, or a row of the list below.</p>"; return; }
+  box.replaceChildren(...about(chosen), ...(mate >= 0 ? about(mate) : []));
+};
+/** What is known of a building. */
+const about = (own) => {
   const percent = (v) => `${Math.round(100 * v)} %`;
   const rows = [];
-  if (known[chosen]) {
-    rows.push(["Struck by a neighbour", percent(struck(chosen, median()))], ["A slab strikes columns", percent(value(chosen, COLUMN))]);
+  if (known[own]) {
+    rows.push(["Struck by a neighbour, averaged over gaps", percent(struck(own, median()))], ["A slab strikes columns, of the samples", percent(value(own, COLUMN))]);
     ["slight", "moderate", "extensive", "complete"].forEach((name, k) => {
-      rows.push([`At least ${name}: alone → with`, `${percent(value(chosen, ALONE + k))} → ${percent(value(chosen, WITH + k))}`]);
+      rows.push([`At least ${name}: alone → with`, `${percent(value(own, ALONE + k))} → ${percent(value(own, WITH + k))}`]);
     });
   } else rows.push(["Neighbours within reach", "none"]);
   const list = document.createElement("dl");
@@ -188,11 +192,11 @@ const detail = () => {
     list.append(dt, dd);
   }
   const head = document.createElement("h3");
-  head.textContent = `Building ${page.ids[chosen]}`;
+  head.textContent = `Building ${page.ids[own]}`;
   const what = document.createElement("p");
   what.className = "quiet";
-  what.textContent = page.what[page.kinds[chosen]] + `, ${page.storeys[chosen]} storey${page.storeys[chosen] === 1 ? "" : "s"}`;
-  box.replaceChildren(head, what, list);
+  what.textContent = page.what[page.kinds[own]] + `, ${page.storeys[own]} storey${page.storeys[own] === 1 ? "" : "s"}`;
+  return [head, what, list];
 };
 const at_pointer = (event) => {
   const ratio = devicePixelRatio || 1, r = canvas.getBoundingClientRect();

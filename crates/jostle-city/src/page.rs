@@ -360,7 +360,9 @@ impl City {
                     canvas #map aria-label="Map of the buildings" {}
                     aside #detail {}
                 }
-                p.quiet.screen { "The slider redraws the probability of a strike from the closing of the free buildings: no run is needed for other gaps." }
+                p.quiet.screen { "The slider redraws the probability of a strike from the closing of the free buildings: no run is needed for other gaps. "
+                    "Other layers are shares of the samples that were run: one sample of a building is "
+                    (percent(1.0 / (self.file.draws as f64 * motions.len() as f64).max(1.0))) "." }
             }
             section {
                 h2 { "Pairs to look at first" }

@@ -122,7 +122,7 @@ function drawCurves() {
   };
   const lines = data.states.map((name, state) => {
     const [alone, own] = [find(chosen, null, state), find(chosen, gap, state)];
-    const line = row([name, digits(alone?.median), digits(own?.median), own?.interval ? own.interval.map(digits).join(" – ") : "–", digits(own?.factor), own?.note ?? alone?.note ?? ""], "td");
+    const line = row([name, digits(alone?.median), digits(own?.median), own?.interval ? own.interval.map(digits).join(" – ") : "–", digits(own?.factor), own?.note ?? alone?.note ?? (own?.median && !own.interval ? say("classes_no_interval") : "")], "td");
     line.lastChild.className = "in-words";
     line.style.borderLeft = `4px solid var(--c${state})`;
     return line;

@@ -46,7 +46,7 @@ pub fn render_classes(title: &str, data: &Value) -> String {
             p.quiet { (message::classes_checked(number("checked"), deviation("drift_deviation"), deviation("force_deviation"))) }
         }
         @for own in warnings.iter().filter_map(Value::as_str) {
-            p.note { (message::warning()) " " (own) }
+            p.note { b { (message::warning()) } " " (own) @if !own.ends_with('.') { "." } }
         }
         @if number("motions") < FEW_MOTIONS {
             p.note { b { (message::warning()) } " " (message::classes_few_motions(number("motions"))) }

@@ -64,7 +64,7 @@ pub fn render_pushover(
                     @for (index, (one, chart)) in pushed.iter().zip(&charts).enumerate() {
                         (building(index, one, chart, demand))
                     }
-                    (guide())
+                    (guide(!models.is_empty()))
                 }
                 footer {
                     (message::made_by_jostle_version(crate::version()))
@@ -111,6 +111,12 @@ fn verdict(one: &PushedBuilding) -> String {
         direction(one, curve),
         percent(curve.drift(peak), 3),
     );
+    if different(one).count() > 1 {
+        text += message::the_weaker_side();
+    }
+    if curve.end == PushEnd::Target && curve.points.last() == Some(peak) {
+        text += message::the_curve_still_rises();
+    }
     let firsts = one.curves.iter().filter_map(|curve| {
         let first = curve.first(Stage::Yielded)?;
         Some((curve, first, curve.coefficient(first)))
@@ -255,10 +261,15 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
         );
         tiles.push((name, percent(curve.coefficient(point), 3), note));
     };
-    if let Some(first) = curve.first(Stage::Cracked) {
+    let yields = curve.first(Stage::Yielded);
+    // Hinges without cracking pass both corners at once.
+    if let Some(first) = curve
+        .first(Stage::Cracked)
+        .filter(|first| Some(*first) != yields)
+    {
         tile(message::first_crack_title(), first);
     }
-    if let Some(first) = curve.first(Stage::Yielded) {
+    if let Some(first) = yields {
         tile(message::first_yield_title(), first);
     }
     tile(message::greatest_base_shear(), curve.peak());
@@ -267,11 +278,13 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
     }
     let springs = one.building.equations.springs.len();
     let [cracked, yielded] = curve.counts(springs);
-    tiles.push((
-        message::cracking_and_yielding_title(),
-        message::yielded_yielded(yielded),
-        message::of_cracked(cracked, springs),
-    ));
+    if springs > 0 {
+        tiles.push((
+            message::cracking_and_yielding_title(),
+            message::yielded_yielded(yielded),
+            message::of_cracked(cracked, springs),
+        ));
+    }
     if one.links() > 0 {
         tiles.push((
             message::links_title(),
@@ -349,7 +362,8 @@ fn events(one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
     html! {
         @if curve.points.iter().any(|point| !point.events.is_empty()) {
             div.beside {
-                h3 { (message::what_happened_in_order(direction(one, curve))) }
+                @let count = curve.points.iter().filter(|point| !point.events.is_empty()).count();
+                h3 { (message::what_happened_in_order(direction(one, curve))) " " span.quiet { (message::count_of_events(count)) } }
                 div.scroll.tall {
                     table.events {
                         thead { tr {
@@ -373,7 +387,7 @@ fn events(one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
     }
 }
 
-fn guide() -> Markup {
+fn guide(in_space: bool) -> Markup {
     html! {
         section #guide {
             h2 { (message::how_to_read()) }
@@ -382,6 +396,7 @@ fn guide() -> Markup {
                 li { (message::hinges_are_linear_between()) }
                 li { (message::the_curve_falls_where_p()) }
                 li { (message::a_hinge_cracks_or_yields()) }
+                @if in_space { li { (message::spaces_are_pushed_along_x()) } }
                 li { (message::a_pushover_shows_strength()) }
             }
         }

@@ -105,7 +105,8 @@ impl SizeResults {
 
     /// The tile of the best trial.
     fn answers(&self) -> Vec<[String; 3]> {
-        let best = self.best().and_then(|best| Some((best, best.objective?)));
+        let best = self.best().or_else(|| self.nearest());
+        let best = best.and_then(|best| Some((best, best.objective?)));
         let tile = best.map(|(best, objective)| {
             let inputs = self.other_inputs();
             let mut note: Vec<String> = inputs
@@ -119,8 +120,13 @@ impl SizeResults {
                 let left = number((*left)?, &condition.left.suffix);
                 Some(format!("{} {left}", in_words(&condition.left.text)))
             }));
+            let objective_name = in_words(&self.objective.text);
             [
-                message::smallest_of(in_words(&self.objective.text)),
+                match (self.best(), self.converged) {
+                    (None, _) => message::nearest_trial(objective_name),
+                    (_, true) => message::smallest_of(objective_name),
+                    (_, false) => message::smallest_so_far(objective_name),
+                },
                 rounded_up(objective, &self.objective.suffix),
                 note.join("; "),
             ]
@@ -254,9 +260,19 @@ impl SizeResults {
 
     fn table(&self) -> Section {
         let mut best: Vec<&Trial> = self.trials.iter().filter(|trial| trial.keeps()).collect();
+        let none_keeps = best.is_empty();
+        if none_keeps {
+            best = self
+                .trials
+                .iter()
+                .filter(|trial| trial.objective.is_some())
+                .collect();
+        }
+        // What is missed is zero of those that keep all.
         sort_by(&mut best, |a, b| {
             let value = |trial: &Trial| trial.objective.unwrap_or(f64::INFINITY);
-            value(a).total_cmp(&value(b))
+            let missed = a.missed.total_cmp(&b.missed);
+            missed.then(value(a).total_cmp(&value(b)))
         });
         let names = self.other_inputs().map(|(_, (name, _))| in_words(name));
         let mut heads: Vec<String> = names.collect();
@@ -279,7 +295,10 @@ impl SizeResults {
         });
         let rows: Vec<Vec<String>> = rows.collect();
         Section {
-            title: message::best_trials().into(),
+            title: match none_keeps {
+                true => message::nearest_trials().into(),
+                false => message::best_trials().into(),
+            },
             table: (!rows.is_empty()).then_some((heads, rows)),
             ..Section::default()
         }

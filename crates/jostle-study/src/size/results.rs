@@ -162,6 +162,13 @@ impl SizeResults {
         self.trials.get(self.best?)
     }
 
+    /// The trial that misses least, where none keeps all conditions.
+    #[must_use]
+    pub fn nearest(&self) -> Option<&Trial> {
+        let known = self.trials.iter().filter(|trial| trial.objective.is_some());
+        known.min_by(|a, b| a.missed.total_cmp(&b.missed))
+    }
+
     /// Trials that no other beats in both the objective and the left side of a condition: what it costs to keep more of it.
     /// In order of the left side.
     #[must_use]

@@ -187,8 +187,6 @@ impl SizeResults {
             format!("Converged after {} trials.", self.trials.len())
         } else if self.stopped {
             format!("Stopped after {} trials.", self.trials.len())
-        } else if self.best.is_none() {
-            format!("Stopped at {} trials.", self.trials.len())
         } else {
             let lower = match self.best() {
                 Some(_) => " The smallest may lie lower; raise --trials.",
