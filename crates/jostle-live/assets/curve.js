@@ -196,7 +196,7 @@ function noCurve({ id, problem }) {
   drawCurve();
 }
 
-const picture = { height: 260, left: 62, right: 16, top: 30, bottom: 40 };
+const picture = { height: 236, left: 62, right: 16, top: 30, bottom: 40 };
 
 /** Percentile of a sorted list, 0 to 1. */
 function percentile(sorted, p) {

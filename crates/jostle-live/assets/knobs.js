@@ -4,12 +4,14 @@
 const usual = [
   /^gap\[\d+\]\.(width|law|stiffness|restitution)$/,
   /^motion\.(record|pga|scale|reverse|kind|amplitude|period)$/,
-  /^building\[\d+\]\.(storeys|storey_height|stiffness_factor|damping\.ratio|mass|stiffness|beam_mass|floor_mass|column\.depth|beam\.depth)$/,
+  /^building\[\d+\]\.(storeys|storey_height|stiffness_factor|damping\.ratio|at|mass|stiffness|beam_mass|floor_mass|column\.depth|beam\.depth)$/,
   /^link\[\d+\]\.(stiffness|damping)$/,
 ];
 /** Those of buildings in space, stated or not. */
 const usualInSpace = /^(motion\.angle|gap\[\d+\]\.friction)$/;
-const isInSpace = (all = knobs) => all.some(({ path, value }) => /^building\[\d+\]\.plan/.test(path) && value !== null);
+const isInSpace = (all = knobs) => all.some(({ path, value }) => value !== null && (/^building\[\d+\]\.(plan|at)\b/.test(path) || (/^building\[\d+\]\.kind$/.test(path) && value.includes("space-frame"))));
+/** Whether gaps follow from where plans are, and have no width of their own. */
+const gapIsOfPlan = () => isInSpace() && !knobs.some(({ path, value }) => /^gap\[\d+\]\.width$/.test(path) && value !== null);
 
 /** With the number that an absent key of space has, so that it has a slider as well. */
 function withStandard(knob) {

@@ -29,6 +29,7 @@ function showFrame(head, data, numbers) {
   frames += 1;
   document.body.dataset.frames = frames;
   takeKnobs(head.knobs);
+  byId("gap-of-plan").hidden = !gapIsOfPlan();
   showRecords(head.records);
   fillOver();
   fillCurveRecords();
@@ -60,14 +61,19 @@ function showRecords(records) {
   if (names.childElementCount !== knownRecords.length) names.replaceChildren(...knownRecords.map((name) => new Option(name, name)));
 }
 
-function showProgress({ id, share }) {
+/** How far a run has come; without a share while it prepares. A part that is repeated does not count back. */
+function showProgress({ id, share = null }) {
   if (waiting?.id !== id) return;
   byId("working").hidden = false;
-  byId("progress").value = share;
+  const bar = byId("progress");
+  if (share === null) bar.removeAttribute("value");
+  else bar.value = waiting.share = Math.max(share, waiting.share ?? 0);
+  const part = share === null ? "" : `${Math.floor(100 * waiting.share)} %, `;
+  byId("done").textContent = `${part}${Math.round((performance.now() - waiting.at) / 1000)} s`;
 }
 
 function showStopped() {
-  byId("headline").textContent = say("stopped");
+  byId("headline").textContent = latest ? say("stopped") : say("stopped_before_results");
 }
 
 // --- Compare -------------------------------------------------------------------------------------------
@@ -131,7 +137,10 @@ placeFirstResults();
 byId("undo").addEventListener("click", () => step(past, future));
 byId("redo").addEventListener("click", () => step(future, past));
 byId("pin").addEventListener("click", togglePin);
-byId("stop").addEventListener("click", () => send({ op: "stop" }));
+byId("stop").addEventListener("click", () => {
+  byId("headline").textContent = say("stopping");
+  send({ op: "stop" });
+});
 byId("search").addEventListener("input", showKnobs);
 byId("several").addEventListener("change", (event) => {
   remember(null);

@@ -127,6 +127,8 @@ let again = false;
 /** A run that takes longer than this gives way to a newer one [ms]. */
 const patience = 300;
 let hurry = 0;
+/** Shows how long a run takes, also before its first step. */
+let ticking = 0;
 
 const request = () => ({ text: state.text, edits: [...edits], record: state.record });
 
@@ -142,6 +144,8 @@ function ask() {
   asked += 1;
   waiting = { id: asked, at: performance.now(), edits: new Map(edits), text: state.text };
   if (!send({ op: "run", id: asked, ...request() })) waiting = null;
+  clearInterval(ticking);
+  ticking = setInterval(() => (waiting ? showProgress(waiting) : clearInterval(ticking)), 1000);
   showWaiting();
 }
 
@@ -201,7 +205,7 @@ function showConnection(text) {
   status.textContent = text;
 }
 
-async function hello({ name, text, records }) {
+async function hello({ name, text, records, knobs: opened }) {
   showConnection("");
   knownRecords = records;
   if (!greeted) {
@@ -210,6 +214,8 @@ async function hello({ name, text, records }) {
     state.text = kept?.text ?? text;
     state.record = kept?.record ?? 0;
     restoreCurve(kept?.curve);
+    // Values can be changed while the first run is under way.
+    if (state.text === text) takeKnobs(opened);
   }
   state.name = name;
   curveChanged();

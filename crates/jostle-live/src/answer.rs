@@ -30,6 +30,7 @@ pub(crate) fn hello(engine: &Engine) -> Answer {
         name: engine.name(),
         text: engine.text(),
         records: engine.records(),
+        knobs: engine.knobs(),
         version: env!("CARGO_PKG_VERSION"),
     })
 }

@@ -174,6 +174,12 @@ impl Engine {
         &self.text
     }
 
+    /// Values of the opened model; none if it cannot be read.
+    pub(crate) fn knobs(&self) -> Vec<jostle_io::Knob> {
+        let tree = self.parse(&self.text);
+        tree.map_or_else(|_| Vec::new(), |tree| tree.knobs())
+    }
+
     /// What models on the page may read.
     #[cfg(not(target_family = "wasm"))]
     pub(crate) fn files(&self) -> &Files {

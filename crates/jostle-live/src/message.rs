@@ -105,6 +105,8 @@ pub(crate) enum Reply<'a> {
         version: &'static str,
         /// Names of records to choose from.
         records: Vec<String>,
+        /// Its values; none if it cannot be read.
+        knobs: Vec<Knob>,
     },
     /// The model cannot be run as it stands.
     Faults {

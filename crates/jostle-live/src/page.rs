@@ -116,9 +116,10 @@ fn document(around: &Around) -> String {
                 div.columns-of-page {
                     (knobs())
                     main {
-                        div #working.working hidden { progress #progress max="1" value="0" aria-label=(message::share_of_the_run()) {} button #stop type="button" { (message::stop()) } }
+                        div #working.working hidden { progress #progress max="1" aria-label=(message::share_of_the_run()) {} output #done {} button #stop type="button" { (message::stop()) } }
                         p #headline.verdict tabindex="-1" aria-live="polite" { (message::running_the_model()) }
                         div #part-warnings {}
+                        div #part-tiles {}
                         div.pair {
                             (curve())
                             div #animation { (PreEscaped(viewer.motion)) }
@@ -150,6 +151,7 @@ fn knobs() -> Markup {
             }
             label #record-choice hidden { (message::record_of_the_list()) " " select #several {} }
             div #faults.faults role="alert" hidden {}
+            p #gap-of-plan.quiet hidden { (message::gap_follows_from_plans()) }
             div #knob-list {}
             datalist #record-names {}
             details #editor {
@@ -178,9 +180,9 @@ fn curve() -> Markup {
                 details.records-of-curve { summary { (message::records()) } div #curve-records {} }
                 button #save-study type="button" { (message::save_study()) }
             }
+            p #curve-note.quiet { (message::drag_the_line_or_use()) }
             figure.chart { figcaption #curve-caption {} div #curve-picture {} }
             ul #curve-marks.curve-marks {}
-            p #curve-note.quiet { (message::drag_the_line_or_use()) }
         }
     }
 }

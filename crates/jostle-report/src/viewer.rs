@@ -20,7 +20,7 @@ pub struct Viewer {
     pub script: String,
     /// The section with the animation.
     pub motion: String,
-    /// All other sections, with an element for each part of a [`Frame`].
+    /// All other sections, with an element for each part of a [`Frame`] but warnings and tiles, which stand above.
     pub sections: String,
     /// The bar of playback.
     pub player: String,
@@ -31,17 +31,17 @@ impl Viewer {
     #[must_use]
     pub fn new() -> Self {
         let sections = html! {
-            div #part-tiles {}
+            (site_plan::scene())
             div #part-checks {}
+            div #part-site {}
             (page::chart_section(true))
             div #part-hinges {}
             section { h2 { (message::impacts_title()) } (page::impact_panels()) div #part-impacts {} }
             section { h2 { (message::peaks_over_the_height()) } div #part-envelopes {} }
             section #code { h2 { (message::comparison_with_code_requirements()) } div #part-joints {} }
-            div #part-site {}
             section { h2 { (message::what_was_computed()) } div #part-model {} }
         };
-        let motion = html! { (page::motion_section(true, true)) (site_plan::scene()) };
+        let motion = page::motion_section(true, true);
         Self {
             style: [STYLE, SITE_STYLE].concat(),
             script: IN_SPACE.concat() + &SCRIPTS.concat(),
