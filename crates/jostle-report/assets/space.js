@@ -149,6 +149,7 @@ class SpaceScene {
     });
     const own = { signal: this.ended.signal };
     byId("space-above").addEventListener("click", () => this.look(0, Math.PI / 2), own);
+    byId("space-side").addEventListener("click", () => this.look(0, 0), own);
     byId("space-oblique").addEventListener("click", () => this.look(-0.9, 0.5), own);
     const slider = byId("space-exaggeration");
     const tell = () => (byId("space-exaggeration-value").textContent = `${this.exaggeration < 10 ? Number(this.exaggeration.toFixed(1)) : Math.round(this.exaggeration)}×`);
@@ -172,7 +173,7 @@ class SpaceScene {
 
   look(turn, tilt) {
     this.turn = turn;
-    this.tilt = Math.min(Math.max(tilt, 0.02), Math.PI / 2);
+    this.tilt = Math.min(Math.max(tilt, 0), Math.PI / 2);
     this.layout();
   }
 
@@ -196,14 +197,15 @@ class SpaceScene {
     const ends = [this.x, this.y].map(([low, high], axis) => [low + Math.min(...moved(axis)), high + Math.max(...moved(axis))]);
     this.middle = ends.map(([low, high]) => (low + high) / 2);
     // The box of the site, its corners all around, as seen.
-    const free = this.exaggeration * this.peak;
+    // Half of it: peaks are rare, and a picture in the middle of a wide margin is small.
+    const free = 0.5 * this.exaggeration * this.peak;
     const corners = ends[0].flatMap((x, i) => ends[1].flatMap((y, j) => [-this.depth, this.top].map((z) => [x + (i ? free : -free), y + (j ? free : -free), z])));
     this.scale = 1;
     this.centre = [0, 0];
     const seen = corners.map((corner) => this.project(corner));
     const [xs, ys] = [seen.map((p) => p[0]), seen.map((p) => p[1])];
     const [wide, tall] = [xs, ys].map((values) => Math.max(...values) - Math.min(...values));
-    this.scale = this.zoom * Math.min((width - 60) / wide, (height - 90) / tall);
+    this.scale = this.zoom * Math.min((width - 60) / wide, (height - 76) / tall);
     this.centre = [xs, ys].map((values) => (this.scale * (Math.max(...values) + Math.min(...values))) / 2);
     this.draw(this.time);
   }
@@ -290,12 +292,16 @@ class SpaceScene {
     context.lineJoin = "round";
     const state = this.buildings.map((building, i) => building.plans.map((_, k) => this.floorNow(i, k)));
     const parts = [];
+    this.written = [];
+    this.names = [];
     this.buildings.forEach((building, i) => this.buildingParts(building, i, state[i], parts));
     // From behind to the front.
     parts.sort((a, b) => a.near - b.near);
     this.groundArrow();
     for (const part of parts) part.paint();
+    // Over forces, which would cover names.
     this.contactMarks(state);
+    for (const [name, [x, y]] of this.names) this.letter(name, x, y, this.ink, "650 14px system-ui, sans-serif");
     context.fillStyle = this.quiet;
     context.font = "14px system-ui, sans-serif";
     context.textAlign = "left";
@@ -382,7 +388,7 @@ class SpaceScene {
     const name = this.at(this.moved(i, roof, [cx, cy], state[roof]));
     parts.push({
       near: 1e6,
-      paint: () => this.letter(page.buildings[i].name, name[0], name[1], this.ink, "650 14px system-ui, sans-serif"),
+      paint: () => this.names.push([page.buildings[i].name, name]),
     });
   }
 
@@ -399,10 +405,16 @@ class SpaceScene {
     context.stroke(mark);
   }
 
+  /** A text, above what is written there already. */
   letter(text, x, y, colour, font = "12px system-ui, sans-serif", align = "center") {
     const context = this.context;
     context.font = font;
     context.textAlign = align;
+    const wide = context.measureText(text).width;
+    const left = align === "center" ? x - wide / 2 : x;
+    const covers = (other) => other.left < left + wide && left < other.left + other.wide && Math.abs(other.y - y) < 15;
+    while (y > 15 && this.written.some(covers)) y -= 3;
+    this.written.push({ left, wide, y });
     context.lineWidth = 3;
     context.strokeStyle = this.sheet;
     context.strokeText(text, x, y);
@@ -471,13 +483,9 @@ class SpaceScene {
       labels.push([`${readable(force * unitOf("kN").factor)} ${unitOf("kN").name}`, x, y]);
     });
     if (!this.lettered) return;
-    // Below each other where they would overlap.
-    labels.sort((p, q) => p[2] - q[2]);
-    let last = -Infinity;
-    for (const [text, x, y] of labels) {
-      last = Math.max(y - 8, last + 15);
-      this.letter(text, x + 12, last - 4, this.alarm, "650 12px system-ui, sans-serif", "left");
-    }
+    // The lowest first: others make way upwards.
+    labels.sort((p, q) => q[2] - p[2]);
+    for (const [text, x, y] of labels) this.letter(text, x + 12, y - 12, this.alarm, "650 12px system-ui, sans-serif", "left");
   }
 
   /** A point of a wall, as far from the building before it as gaps are drawn. */

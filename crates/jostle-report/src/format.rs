@@ -211,11 +211,13 @@ pub fn typeset(text: &str) -> String {
         };
         match number.parse::<f64>() {
             Ok(value) if number.contains(['e', 'E']) => format!("{}{end}", plain(value, 4)),
+            Ok(_) => grouped(word),
             _ => word.to_owned(),
         }
     };
     let words: Vec<String> = text.split(' ').map(word).collect();
     let signs = [
+        ("N.s/m", "N·s/m"),
         ("^1.5", "¹·⁵"),
         ("m/s2", "m/s²"),
         ("^2", "²"),

@@ -261,7 +261,7 @@ fn table(page: &Page, building: &BuildingSummary) -> Markup {
                                 @if turns { (levels(member)) }
                                 @if impacts > 0 {
                                     td.number { (impacts) }
-                                    td.number { (kilo(hit(member))) }
+                                    td.number { (format::significant(format::FORCE.of(hit(member)), 4)) }
                                 } @else {
                                     td.number { (format::NOTHING) }
                                     td.number { (format::NOTHING) }

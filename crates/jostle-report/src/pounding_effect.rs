@@ -86,8 +86,8 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     Some(html! {
         section #pounding-effect {
             h2 { (message::effect_of_pounding()) }
+            p.quiet { (message::with_contact_over_without()) }
             div.scroll { table {
-                caption.quiet { (message::with_contact_over_without()) }
                 thead { tr {
                     th scope="col" { (message::building()) }
                     @for kind in [message::storey_drift(), message::storey_shear(), message::total_acceleration()] {

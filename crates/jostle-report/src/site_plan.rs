@@ -134,7 +134,8 @@ pub(crate) fn scene() -> Markup {
             div.controls {
                 button #space-play type="button" { (message::play()) }
                 span.buttons role="group" aria-label=(message::view()) {
-                    button #space-oblique type="button" { (message::from_the_side()) }
+                    button #space-oblique type="button" { (message::oblique_view()) }
+                    button #space-side type="button" { (message::from_the_side()) }
                     button #space-above type="button" { (message::from_above()) }
                 }
                 label { (message::exaggeration()) " "

@@ -58,7 +58,11 @@ fn accuracy(summary: &Summary) -> Markup {
     html! {
         p.quiet #accuracy {
             b { (message::accuracy()) " " } (words) "."
-            @if unknown { " " b { (message::numerical_error_alone()) } }
+            @if unknown {
+                @let text = message::numerical_error_alone();
+                @let (before, after) = text.split_once("--sensitivity").unwrap_or((text, ""));
+                " " b { (before) span.option { "--sensitivity" } (after) }
+            }
         }
     }
 }
@@ -184,7 +188,14 @@ fn drift(summary: &Summary) -> Vec<Tile> {
     };
     let of = |name: &str, of: &dyn Fn(&FloorSummary) -> f64| {
         let (building, floor) = greatest(of)?;
-        let note = message::storey_of(&building.name, floor.floor);
+        let mut note = message::storey_of(&building.name, floor.floor);
+        let along = floor.response.storey_drift_peak;
+        if floor
+            .in_plan
+            .is_some_and(|plan| of(floor) > along.max(plan.storey_drift_across_peak))
+        {
+            note += message::at_a_corner();
+        }
         let value = format::unit(format::fixed(100.0 * of(floor), 2), "%");
         Some(tile(name, value, note))
     };
@@ -217,12 +228,18 @@ fn members(summary: &Summary) -> Option<Tile> {
     let worst = rated
         .clone()
         .max_by(|a, b| a.1.worst.ratio.total_cmp(&b.1.worst.ratio))?;
-    let (beyond, all) = rated.fold((0, 0), |(beyond, all), (_, capacity)| {
-        (beyond + capacity.exceeded, all + capacity.rated)
+    let [beyond, all] = rated.fold([0; 2], |[beyond, all], (_, capacity)| {
+        [beyond + capacity.exceeded, all + capacity.rated]
     });
+    let buildings = summary.buildings.iter();
+    let members: usize = buildings.map(|building| building.members.len()).sum();
+    let unrated = members.saturating_sub(all);
     let member = &worst.1.worst;
     let ratio = format::fixed(member.ratio, 2);
-    let note = message::worst_member(&member.member, member.kind, ratio);
+    let mut note = message::worst_member(&member.member, member.kind, ratio);
+    if unrated > 0 {
+        note += &message::without_known_capacity(unrated);
+    }
     let value = message::one_of_all(beyond, all);
     Some(tile(message::members_beyond_capacity(), value, note))
 }
