@@ -73,7 +73,7 @@ function showProgress({ id, share = null }) {
 }
 
 function showStopped() {
-  byId("headline").textContent = say(latest ? "stopped" : "stopped_before_results");
+  byId("headline").textContent = latest ? say("stopped") : say("stopped_before_results");
 }
 
 // --- Compare -------------------------------------------------------------------------------------------

@@ -120,9 +120,9 @@ fn the_page_is_whole_and_loads_nothing() {
 #[test]
 fn heights_in_a_chart_are_those_of_the_numbers() {
     let text = render_study(&page());
-    // The chart reaches from y = 260 (0) to y = 10 (1), and from x = 78 (0) to x = 500 (200).
+    // The chart reaches from y = 260 (0) to y = 10 (1), and from x = 78 (0) to x = 492 (200).
     assert!(
-        text.contains("d=\"M78.0 260.0L289.0 135.0L500.0 10.0\""),
+        text.contains("d=\"M78.0 260.0L285.0 135.0L492.0 10.0\""),
         "the line of the series"
     );
     // The level and the middle of the line lie at one height.
