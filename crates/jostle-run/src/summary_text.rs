@@ -689,7 +689,7 @@ fn write_gap(
     if !hit.is_empty() {
         writeln!(
             text,
-            "{:>wide$}   impacts   peak force    impulse   closing    first",
+            "{:>wide$}  impacts   peak force    impulse   closing    first",
             "floors "
         )?;
     }

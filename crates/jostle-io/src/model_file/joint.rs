@@ -44,12 +44,7 @@ pub(super) fn with_hinge(
     let Some((field, joint)) = hinge else {
         return hinges;
     };
-    let stiffness = or_rigid(
-        reader,
-        &joint,
-        "rotational_stiffness",
-        Dimension::RotationalStiffness,
-    );
+    let stiffness = before_yield(reader, &joint);
     if !joint.has("rotational_stiffness") {
         *reader.bad(
             &field,
@@ -111,14 +106,18 @@ pub(super) fn read_in_space(reader: &mut Reader<'_>, view: &View<'_>, frame: &mu
     }
 }
 
+/// Stiffness of a connection before it yields; `None` for `"rigid"` and where it is absent.
+fn before_yield(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
+    let field = reader.get(view, "rotational_stiffness")?;
+    if field.as_text() == Some("rigid") {
+        return None;
+    }
+    reader.positive(&field, Dimension::RotationalStiffness)
+}
+
 /// The spring of connections that yield.
 fn connection(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Hysteresis> {
-    let stiffness = or_rigid(
-        reader,
-        view,
-        "rotational_stiffness",
-        Dimension::RotationalStiffness,
-    );
+    let stiffness = before_yield(reader, view);
     if !view.has("rotational_stiffness") {
         let remedy =
             "add rotational_stiffness = \"40 MN.m/rad\", that of the connection before it yields";
