@@ -204,6 +204,28 @@ law = "kelvin-no-tension"
 stiffness = "400 MN/m"
 "#;
 
+const FAILING_IN_SPACE: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.6 g", duration = "2.5 s", angle = "25 deg" }
+[[building]]
+name = "G"
+kind = "space-frame"
+storeys = 2
+storey_height = "3 m"
+lines_x = ["0 m", "5 m"]
+lines_y = ["0 m", "4 m"]
+mass = "40 t"
+concrete = "C30"
+damping = { ratio = 0.05 }
+column = { size = ["400 mm", "400 mm"] }
+beam_x = { width = "250 mm", depth = "500 mm" }
+beam_y = { width = "250 mm", depth = "500 mm" }
+axial = "flexible"
+joint = { x = { rotational_stiffness = "60 MN.m/rad", hinge = { rule = "bilinear", yield = "90 kN.m", post_yield = 0.03 } }, y = { rotational_stiffness = "50 MN.m/rad", hinge = { rule = "takeda", cracking = "40 kN.m", yield = "80 kN.m", post_cracking = 0.4, post_yield = 0.03 } } }
+shear_failure = { strength = "70 kN", slope = "3 MN/m", residual = 0.3 }
+brace = [{ from = "0.1.1", to = "2.2.2", EA = "120 MN", hinge = { rule = "bilinear", yield = "120 kN", post_yield = 0.02 } }]
+infill = [{ along = "y", x = 1, y = 1, storeys = 2, stiffness = "20 MN/m", mass = "2 t" }]
+"#;
+
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
     let all = [
@@ -213,6 +235,7 @@ pub(super) fn models() -> Vec<Pinned> {
         ("surfaces", ON_SURFACES),
         ("lifting", LIFTING),
         ("fibres in space", FIBRED_IN_SPACE),
+        ("shear, connections and braces in space", FAILING_IN_SPACE),
         ("panels", PANELLED),
         ("pendulums", ON_PENDULUMS),
     ];
