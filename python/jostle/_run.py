@@ -142,7 +142,7 @@ def _interrupted(result: Result) -> None:
         raise KeyboardInterrupt
     reason = result.summary["ended_early"] or "the run without contact was stopped"
     warnings.warn(
-        f"{reason}; the result holds what was computed until then (Ctrl-C again raises KeyboardInterrupt)",
+        f"{reason}; the result ends there (Ctrl-C again raises KeyboardInterrupt)",
         InterruptedWarning,
         stacklevel=3,
     )

@@ -133,5 +133,5 @@ def test_ctrl_c_stops_the_command_line_and_keeps_its_results(tmp_path: Path) -> 
     program.send_signal(signal.SIGINT)
     _, complaint = program.communicate(timeout=60)
     assert program.returncode == 130, complaint
-    assert "stopped; what was computed until then is in kept" in complaint
+    assert "stopped; results up to then are in kept" in complaint
     assert (tmp_path / "kept" / "summary.json").exists()
