@@ -722,7 +722,6 @@ fn surfaces_bear_what_fibres_bear() {
                 let shears = pushed.points.iter().map(|point| point.base_shear);
                 shears.fold(0.0, f64::max)
             });
-        println!("{load}: {fibres} {surface} {}", surface / fibres);
         assert!(
             (surface / fibres - 1.0).abs() < 0.04,
             "{load}: {fibres} {surface}"

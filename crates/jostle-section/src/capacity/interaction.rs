@@ -96,10 +96,11 @@ impl Interaction {
         }
     }
 
-    /// Corners of a convex polygon within the curve, as axial force, positive in tension and rising, and moment; at most so many, those
-    /// left out that change its area least \[N, N·m\].
+    /// Corners of a convex polygon on the curve, as axial force, positive in tension and in ascending order, and moment \[N, N·m\]. Of the
+    /// convex hull of the curve, `most` ≥ 3 corners are kept; those are left out that change its area least.
     ///
-    /// With 12 corners it is nowhere more than 2 % of the greatest moment below the curve of a rectangle with bars around.
+    /// With 12 corners, the polygon of a rectangle with bars around it lies up to 2 % of the greatest moment below the curve, and up to
+    /// 0.6 % above it where the curve is not convex.
     #[must_use]
     pub fn corners(&self, most: usize) -> Vec<[f64; 2]> {
         let twice_area = |[a, b, c]: [[f64; 2]; 3]| {
@@ -216,7 +217,7 @@ mod tests {
         }
     }
 
-    /// The polygon lies within the curve and close to it, and has all its range.
+    /// The polygon lies within the convex hull of the curve, close to the curve, and has all its range.
     #[test]
     fn corners_are_close_to_the_curve() {
         for (bars, width, depth) in [
@@ -230,25 +231,32 @@ mod tests {
             let greatest = corners
                 .iter()
                 .fold(0.0_f64, |most, corner| most.max(corner[1]));
+            let hull = interaction.corners(usize::MAX);
+            let on_hull = |force: f64| {
+                let within = |pair: &&[[f64; 2]]| force <= pair[1][0];
+                let pair = hull.windows(2).find(within).expect("within its range");
+                let share = (force - pair[0][0]) / (pair[1][0] - pair[0][0]);
+                pair[0][1] + share * (pair[1][1] - pair[0][1])
+            };
             let (mut low, mut high) = (0.0_f64, 0.0_f64);
             for pair in corners.windows(2) {
                 for part in 0..=20 {
                     let share = f64::from(part) / 20.0;
                     let [force, moment] =
                         [0, 1].map(|i| pair[0][i] + share * (pair[1][i] - pair[0][i]));
+                    assert!(moment <= on_hull(force.min(corners[11][0])) + 1e-9 * greatest);
                     let apart = (interaction.moment(-force) - moment) / greatest;
                     (low, high) = (low.min(apart), high.max(apart));
                 }
             }
-            println!("{bars}: {low} {high}");
-            // The curve is not quite convex: the polygon spans what is not.
+            // The curve is not quite convex: its hull, and the polygon, span what is not.
             assert!(low > -0.006 && high < 0.02, "{bars}: {low} {high}");
             let [tension, compression] = interaction.range();
             assert_eq!([corners[0][0], corners[11][0]], [-compression, -tension]);
         }
     }
 
-    /// Forces of 2000 slices and all bars about mid-depth; the strain is `top` at the top and zero at the depth `axis`.
+    /// Forces of 400 slices and all bars about mid-depth; the strain is `top` at the top and zero at the depth `axis`.
     fn sums(section: &Section, top: f64, axis: f64) -> [f64; 2] {
         let law = crate::ConcreteLaw::unconfined(&section.concrete);
         let strain = |depth: f64| top * (1.0 - depth / axis);

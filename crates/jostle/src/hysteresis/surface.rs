@@ -597,7 +597,6 @@ mod tests {
                 worst
             };
             let errors = [20, 200, 2000].map(error);
-            println!("{post_yield}: {errors:?}");
             assert!(errors[0] < 0.05, "{errors:?}");
             assert!(errors[2] < 1e-3, "{errors:?}");
             assert!(errors[1] < 0.5 * errors[0], "{errors:?}");
