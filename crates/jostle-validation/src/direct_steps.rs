@@ -101,7 +101,7 @@ pub fn rows() -> Vec<Row> {
             ));
             rows.push(Row::absolute(
                 &source,
-                format!("estimated error at {tolerance:.0e} over the tolerance"),
+                format!("estimated error ÷ tolerance, at a tolerance of {tolerance:.0e}"),
                 0.0,
                 residual / tolerance,
                 1.0,

@@ -18,8 +18,8 @@ const ILL_CONDITIONED: &str = "\
   of 10 kN, in a run with impacts of 190 kN.
 - **Below some step size accuracy stops improving.** In double precision the step equations have a relative error of about 10⁻¹⁵/(ωh)². For
   slow structures and steps below about 10 µs, rounding therefore exceeds the error of the method.
-- **Some results are not compared**: those of contact laws that OpenSees lacks or defines differently, and the tables of Zhang et al. (2019),
-  whose inputs are not available.
+- **Some results are not compared**: those of contact laws that OpenSees lacks or defines differently, and the other tables of Zhang et al. (2019),
+  because not all of their inputs are published.
 - **None of the reference values is a measured impact.** Closed forms and other programs show that the equations are solved correctly, but not
   that they describe a real impact. Measured data are available from the following experiments, which have not been compared yet:
     - the moat-wall tests of report MCEER-13-0003 (DesignSafe, project NEES-2008-0571), in a layout that `jostle compare` reads;
@@ -51,7 +51,7 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     let mut page = format!(
         "# Validation\n\n\
          Results of jostle {version} are compared with closed forms, independent programs and the literature. Of {rows} numbers, \
-         {} agree within their tolerance, {missed} do not, and {known} differ for a known reason. Each page below lists the numbers \
+         {} agree within their tolerance, {missed} do not, and {known} more do not for a known reason. Each page below lists the numbers \
          of one family with their sources, errors and tolerances.\n\n\
          ## Families\n\n| family | numbers | outside the tolerance | known reason |\n|---|---:|---:|---:|\n",
         rows - missed - known,

@@ -345,7 +345,7 @@ pub fn page(study: &Study) -> String {
     let (soft, stiff) = (near(SOFT), near(STIFF));
     let _ = writeln!(
         text,
-        "| Pounding amplifies the stiffer tower and suppresses the more flexible one. | peak displacement with ÷ without contact, at {:.2} Hz: stiff {:.2}, soft {:.2}; at {:.2} Hz: stiff {:.2}, soft {:.2} | {} |",
+        "| Pounding amplifies the stiffer tower and suppresses the more flexible one. | peak displacement with contact ÷ without contact, at {:.2} Hz: stiff {:.2}, soft {:.2}; at {:.2} Hz: stiff {:.2}, soft {:.2} | {} |",
         soft.frequency,
         ratio(soft, 1),
         ratio(soft, 0),
@@ -365,7 +365,7 @@ pub fn page(study: &Study) -> String {
     let _ = write!(
         text,
         "\nA motion that does not repeat within {LONGEST} cycles may be chaotic, or it may be a combination of two periods without a common \
-         multiple. The Poincaré section distinguishes the two: the points of the latter form a closed line. Two states are taken as equal if \
+         multiple. The Poincaré section distinguishes the two: if it is such a combination, the points form a closed curve. Two states count as equal if \
          they differ by less than 0.1 % of their range. Motions that do not repeat are computed for {} more cycles, of which the last {} are evaluated.\n\n\
          The tested towers were of steel and had less damping, which makes resonances narrower and impacts faster. The first and last rows \
          of the table are checked by the test `crates/jostle/tests/mechanics/verification/harmonic_pounding.rs`.\n",

@@ -139,11 +139,11 @@ pub fn page(ways: &[Way]) -> String {
         "# Work and precision\n\n\
          <!-- Written by `cargo run --release -p jostle-validation -- --work-precision`; do not edit. -->\n\n\
          This page compares the cost of accuracy of automatic and fixed time steps. The models are random pairs of shear buildings \
-         (seeds {} to {}) of one to three storeys under 4 s of strong shaking, with all contact laws whose force acts over time. Pairs \
+         (seeds {} to {}) of one to three storeys under 4 s of strong shaking, with all contact laws except `restitution`. Pairs \
          without contact are left out. The tables list the median and the 90 % quantile of two errors: that of the peak force of the \
          gap, and that of the sum of all impulses. Both are relative to a run with uniform steps of {} µs. *Work* is the mean number of \
          solutions of one building per run; a factorisation counts as three solutions. \
-         *Two fixed steps* are a longer one in free vibration and a tenth of it in contact.\n\n\
+         *Two fixed steps*: one step size in free vibration, and a tenth of it during contact.\n\n\
          ![Error of the peak contact force against work, for automatic and fixed steps: median, and 90 % of the pairs (dashed)](figures/work-precision.svg)\n\n",
         SEEDS.start(),
         SEEDS.end(),

@@ -127,7 +127,7 @@ pub struct SelectionCheck {
     /// For every accelerogram: base shear over that of the code's spectrum, both from the main periods by the root of
     /// the sum of squares \[–\].
     pub base_shear: Vec<f64>,
-    /// For every accelerogram: time from the first to the last tenth of its peak \[s\].
+    /// For every accelerogram: time between the first and the last exceedance of a tenth of its peak \[s\].
     pub effective_duration: Vec<f64>,
 }
 

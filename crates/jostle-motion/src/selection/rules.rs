@@ -94,7 +94,7 @@ impl Numbers<'_> {
             rule(
                 RuleKind::Duration,
                 "effective duration",
-                "from the first to the last tenth of the peak, at least five times the longest main period",
+                "time between the first and the last exceedance of a tenth of the peak, at least five times the longest main period",
                 check
                     .effective_duration
                     .iter()

@@ -61,7 +61,7 @@ pub fn families_page(old: &str, records: &[Record]) -> Result<String, String> {
     let seeds: Vec<String> = seeds.keys().map(ToString::to_string).collect();
     let _ = writeln!(
         text,
-        "\n{models} models of the seeds {}. A false alarm is a run that warns, or reports a sensitive instant, although all its numbers are certain and within the tolerance.\n",
+        "\n{models} models with the seeds {}. A false alarm is a run that warns, or reports `sensitive_from_s`, although all its numbers are certain and within the tolerance.\n",
         seeds.join(", ")
     );
     let _ = writeln!(

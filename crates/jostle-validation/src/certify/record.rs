@@ -373,8 +373,8 @@ fn drawn(records: &[Record]) -> String {
         .map(|record| record.seed.to_string())
         .collect();
     match seeds.as_slice() {
-        [only] => format!("{all} models of seed {only}"),
-        several => format!("{all} models of the seeds {}", several.join(", ")),
+        [only] => format!("{all} models with seed {only}"),
+        several => format!("{all} models with the seeds {}", several.join(", ")),
     }
 }
 
