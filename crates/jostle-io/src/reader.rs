@@ -297,6 +297,31 @@ impl<'s> Reader<'s> {
         self.open(&field, sections)
     }
 
+    /// The quantity of a key, if it is given.
+    pub(crate) fn quantity_at(
+        &mut self,
+        view: &View<'_>,
+        key: &'static str,
+        dimension: Dimension,
+    ) -> Option<f64> {
+        let field = self.get(view, key)?;
+        self.quantity(&field, dimension)
+    }
+
+    /// The quantity of a key that is needed; without it the fault shows an example.
+    pub(crate) fn needed_quantity(
+        &mut self,
+        view: &View<'_>,
+        key: &'static str,
+        dimension: Dimension,
+        example: &str,
+    ) -> Option<f64> {
+        if !view.has(key) {
+            self.missing(view, key, format!("add {key} = {example}"));
+        }
+        self.quantity_at(view, key, dimension)
+    }
+
     /// A quantity: text with a unit, or a bare number in SI.
     pub(crate) fn quantity(&mut self, field: &Field<'_>, dimension: Dimension) -> Option<f64> {
         let parsed = match &field.node.value {

@@ -1,6 +1,5 @@
 //! Answers to the requests of a page, however they reach it.
 
-use std::any::Any;
 use std::ops::ControlFlow;
 
 use jostle::stepping::Progress;
@@ -88,7 +87,7 @@ fn with_tree(
     }
 }
 
-fn no_frame(id: u64, trouble: Trouble, tree: Option<&ModelTree>) -> Answer {
+pub(crate) fn no_frame(id: u64, trouble: Trouble, tree: Option<&ModelTree>) -> Answer {
     say(&match trouble {
         Trouble::Stopped => Reply::Stopped { id },
         Trouble::Faults(faults) => Reply::Faults {
@@ -98,25 +97,6 @@ fn no_frame(id: u64, trouble: Trouble, tree: Option<&ModelTree>) -> Answer {
             faults,
         },
     })
-}
-
-/// The text of a panic in a request.
-pub(crate) fn failure(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    format!(
-        "jostle failed on this, which is an error of the program: {}",
-        text.unwrap_or("no reason given")
-    )
-}
-
-/// What is said of a run on which the program failed.
-pub(crate) fn failed(id: u64, panic: &(dyn Any + Send)) -> Answer {
-    no_frame(
-        id,
-        Trouble::Faults(crate::message::fault("", failure(panic))),
-        None,
-    )
 }
 
 /// Why a curve has no points, in the words of the first fault.

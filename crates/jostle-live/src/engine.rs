@@ -30,6 +30,7 @@ pub struct Engine {
     /// What models on the page may read: the folder of the model, and what the opened model names.
     files: Files,
     /// Files that the opened model names, in its words.
+    #[cfg(not(target_family = "wasm"))]
     named: Vec<String>,
     /// Those of them that are records of its motion.
     named_records: Vec<String>,
@@ -149,6 +150,7 @@ impl Engine {
             text: tree.text().to_owned(),
             files: tree.files().confined(&named),
             named_records: records.filter(|name| named.contains(name)).collect(),
+            #[cfg(not(target_family = "wasm"))]
             named,
             units: tree.units(),
             case_cache: CaseCache::default(),

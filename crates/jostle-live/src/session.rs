@@ -1,5 +1,6 @@
 //! One open page: its requests, a thread that runs, and a thread that computes curves.
 
+use std::any::Any;
 use std::cell::Cell;
 use std::io::ErrorKind;
 use std::net::{Shutdown, TcpStream};
@@ -15,7 +16,7 @@ use tungstenite::{Error, Message, WebSocket};
 
 use crate::answer::{self, Answer};
 use crate::curve::{self, Cases};
-use crate::engine::Engine;
+use crate::engine::{Engine, Trouble};
 use crate::message::{Curve, Reply, Request, Run};
 use crate::slot::Slot;
 
@@ -90,7 +91,7 @@ pub(crate) fn serve(
                     Ok(Request::Study(curve)) => {
                         let study =
                             catch_unwind(AssertUnwindSafe(|| answer::study(engine, &curve)));
-                        let failed = |panic: Box<_>| answer::failed(curve.run.id, &*panic);
+                        let failed = |panic: Box<_>| failed(curve.run.id, &*panic);
                         writer.send(study.unwrap_or_else(failed));
                     }
                     // Only a page of another version says something else.
@@ -130,7 +131,7 @@ fn run_jobs(engine: &Engine, slot: &Slot<Job>, writer: &Writer) {
             Job::Frame(run) => answer::frame(engine, run, &watch),
             Job::Report(run) => (answer::report(engine, run, &watch), None),
         }));
-        let failed = |panic: Box<_>| (answer::failed(run.id, &*panic), None);
+        let failed = |panic: Box<_>| (failed(run.id, &*panic), None);
         let (reply, solved) = answered.unwrap_or_else(failed);
         writer.send(reply);
         // The page is drawn while this is computed; a newer change stops it.
@@ -156,7 +157,7 @@ fn run_curves(engine: &Engine, slot: &Slot<Curve>, writer: &Writer) {
         let stop = || slot.is_stale(number);
         let run = || run_curve(engine, curve, &stop, writer);
         if let Err(panic) = catch_unwind(AssertUnwindSafe(run)) {
-            let problem = answer::failure(&*panic);
+            let problem = failure(&*panic);
             writer.say(&Reply::NoCurve { id, problem });
         }
     }
@@ -208,6 +209,25 @@ fn run_curve(engine: &Engine, curve: Curve, stop: &(dyn Fn() -> bool + Sync), wr
     {
         writer.send(answer);
     }
+}
+
+/// The text of a panic in a request.
+fn failure(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!(
+        "jostle failed on this, which is an error of the program: {}",
+        text.unwrap_or("no reason given")
+    )
+}
+
+/// What is said of a run on which the program failed.
+fn failed(id: u64, panic: &(dyn Any + Send)) -> Answer {
+    answer::no_frame(
+        id,
+        Trouble::Faults(crate::message::fault("", failure(panic))),
+        None,
+    )
 }
 
 #[cfg(test)]

@@ -48,13 +48,12 @@ pub(super) fn read(
             None
         }
     };
-    let mat_mass = needed(reader, &view, "mat_mass", Dimension::Mass, "\"150 t\"");
+    let mat_mass = reader.needed_quantity(&view, "mat_mass", Dimension::Mass, "\"150 t\"");
     let isolator = kind.and_then(|kind| {
         refuse_keys_of_others(reader, &view, kind);
         match kind {
             "linear" => Some(Isolator::Linear {
-                stiffness: needed(
-                    reader,
+                stiffness: reader.needed_quantity(
                     &view,
                     "stiffness",
                     Dimension::Stiffness,
@@ -80,11 +79,11 @@ pub(super) fn read(
             _ => pendulum(reader, &view),
         }
     });
-    let damping = given(reader, &view, "damping", Dimension::Damping);
+    let damping = reader.quantity_at(&view, "damping", Dimension::Damping);
     // Of rubber of high damping it is a property of the rubber.
     let of_dashpot = kind != Some("high-damping-rubber");
     let ratio = match of_dashpot {
-        true => given(reader, &view, "damping_ratio", Dimension::Dimensionless),
+        true => reader.quantity_at(&view, "damping_ratio", Dimension::Dimensionless),
         false => None,
     };
     if of_dashpot
@@ -101,9 +100,9 @@ pub(super) fn read(
         None => IsolatorDamping::Coefficient(damping.unwrap_or(0.0)),
     };
     let stops = stops(reader, &view);
-    let limit = given(reader, &view, "limit", Dimension::Length);
+    let limit = reader.quantity_at(&view, "limit", Dimension::Length);
     read_places(reader, &view, places);
-    let weight = given(reader, &view, "weight", Dimension::Force);
+    let weight = reader.quantity_at(&view, "weight", Dimension::Force);
     let bounds = kind.and_then(|kind| bounds(reader, &view, kind));
     Some(Isolation {
         isolator: isolator?,
@@ -233,15 +232,9 @@ fn refuse_keys_of_others(reader: &mut Reader<'_>, view: &View<'_>, kind: &'stati
 }
 
 fn lead_rubber(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
-    let stiffness = needed(
-        reader,
-        view,
-        "stiffness",
-        Dimension::Stiffness,
-        "\"42 MN/m\"",
-    );
-    let yield_force = needed(reader, view, "yield", Dimension::Force, "\"400 kN\"");
-    let post_yield = needed(reader, view, "post_yield", Dimension::Dimensionless, "0.1");
+    let stiffness = reader.needed_quantity(view, "stiffness", Dimension::Stiffness, "\"42 MN/m\"");
+    let yield_force = reader.needed_quantity(view, "yield", Dimension::Force, "\"400 kN\"");
+    let post_yield = reader.needed_quantity(view, "post_yield", Dimension::Dimensionless, "0.1");
     Some(Isolator::LeadRubber {
         stiffness: stiffness?,
         yield_force: yield_force?,
@@ -250,7 +243,8 @@ fn lead_rubber(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
 }
 
 fn high_damping_rubber(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
-    let mut number = |key, dimension, example| needed(reader, view, key, dimension, example);
+    let mut number =
+        |key, dimension, example| reader.needed_quantity(view, key, dimension, example);
     let stiffness = number("stiffness", Dimension::Stiffness, "\"6 MN/m\"");
     let ratio = number("damping_ratio", Dimension::Dimensionless, "0.15");
     let displacement = number("displacement", Dimension::Length, "\"200 mm\"");
@@ -316,7 +310,7 @@ fn surfaces<const N: usize>(
             "[\"300 mm\", \"50 mm\", \"50 mm\", \"300 mm\"]",
         ],
     );
-    let slip = given(reader, view, "slip_displacement", Dimension::Length);
+    let slip = reader.quantity_at(view, "slip_displacement", Dimension::Length);
     let (radii, frictions, capacities) = (radii?, frictions?, capacities?);
     let surfaces = std::array::from_fn(|index| SlidingSurface {
         radius: radii[index],
@@ -327,7 +321,7 @@ fn surfaces<const N: usize>(
 }
 
 fn pendulum(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
-    let radius = needed(reader, view, "radius", Dimension::Length, "\"1.5 m\"");
+    let radius = reader.needed_quantity(view, "radius", Dimension::Length, "\"1.5 m\"");
     let friction = match reader.get(view, "friction") {
         Some(field) => friction(reader, &field),
         None => {
@@ -335,7 +329,7 @@ fn pendulum(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
             None
         }
     };
-    let slip = given(reader, view, "slip_displacement", Dimension::Length);
+    let slip = reader.quantity_at(view, "slip_displacement", Dimension::Length);
     Some(Isolator::Pendulum {
         radius: radius?,
         friction: friction?,
@@ -350,9 +344,9 @@ fn friction(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<SpeedFriction>
         return Some(SpeedFriction::constant(coefficient));
     }
     let view = reader.open(field, &[Section::IsolationFriction])?;
-    let slow = needed(reader, &view, "slow", Dimension::Dimensionless, "0.03");
-    let fast = needed(reader, &view, "fast", Dimension::Dimensionless, "0.06");
-    let rate = needed(reader, &view, "rate", Dimension::Slowness, "\"50 s/m\"");
+    let slow = reader.needed_quantity(&view, "slow", Dimension::Dimensionless, "0.03");
+    let fast = reader.needed_quantity(&view, "fast", Dimension::Dimensionless, "0.06");
+    let rate = reader.needed_quantity(&view, "rate", Dimension::Slowness, "\"50 s/m\"");
     Some(SpeedFriction {
         slow: slow?,
         fast: fast?,
@@ -384,39 +378,10 @@ fn stops(reader: &mut Reader<'_>, view: &View<'_>) -> [Option<Stop>; 2] {
 }
 
 fn stop(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Stop> {
-    let at = needed(reader, view, "at", Dimension::Length, "\"90 mm\"");
-    let stiffness = needed(
-        reader,
-        view,
-        "stiffness",
-        Dimension::Stiffness,
-        "\"60 MN/m\"",
-    );
+    let at = reader.needed_quantity(view, "at", Dimension::Length, "\"90 mm\"");
+    let stiffness = reader.needed_quantity(view, "stiffness", Dimension::Stiffness, "\"60 MN/m\"");
     Some(Stop {
         at: at?,
         stiffness: stiffness?,
     })
-}
-
-fn given(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    key: &'static str,
-    dimension: Dimension,
-) -> Option<f64> {
-    let field = reader.get(view, key)?;
-    reader.quantity(&field, dimension)
-}
-
-fn needed(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    key: &'static str,
-    dimension: Dimension,
-    example: &str,
-) -> Option<f64> {
-    if !view.has(key) {
-        reader.missing(view, key, format!("add {key} = {example}"));
-    }
-    given(reader, view, key, dimension)
 }

@@ -26,24 +26,15 @@ pub(super) fn read_foundation(reader: &mut Reader<'_>, building: &View<'_>) -> O
         }
     }
     let view = reader.open(&field, &[Section::Foundation])?;
-    let length = needed(reader, &view, "length", Dimension::Length, "\"12 m\"");
-    let width = needed(reader, &view, "width", Dimension::Length, "\"12 m\"");
-    let mass = needed(reader, &view, "mass", Dimension::Mass, "\"120 t\"");
-    let embedment = given(reader, &view, "embedment", Dimension::Length);
-    let rotary_inertia = given(reader, &view, "rotary_inertia", Dimension::PolarMass);
+    let length = reader.needed_quantity(&view, "length", Dimension::Length, "\"12 m\"");
+    let width = reader.needed_quantity(&view, "width", Dimension::Length, "\"12 m\"");
+    let mass = reader.needed_quantity(&view, "mass", Dimension::Mass, "\"120 t\"");
+    let embedment = reader.quantity_at(&view, "embedment", Dimension::Length);
+    let rotary_inertia = reader.quantity_at(&view, "rotary_inertia", Dimension::PolarMass);
     let uplift = read_uplift(reader, &view)?;
-    let torsion = given(
-        reader,
-        &view,
-        "torsional_stiffness",
-        Dimension::RotationalStiffness,
-    );
-    let torsional_damping = given(
-        reader,
-        &view,
-        "torsional_damping",
-        Dimension::RotationalDamping,
-    );
+    let torsion = reader.quantity_at(&view, "torsional_stiffness", Dimension::RotationalStiffness);
+    let torsional_damping =
+        reader.quantity_at(&view, "torsional_damping", Dimension::RotationalDamping);
     let plate = Foundation::rectangle(length?, width?, mass?);
     Some(Foundation {
         uplift,
@@ -99,7 +90,7 @@ fn read_uplift(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Uplift
         Some(field) => Some(reader.count(&field)?),
         None => None,
     };
-    let number = |reader: &mut Reader<'_>, key, dimension| given(reader, view, key, dimension);
+    let number = |reader: &mut Reader<'_>, key, dimension| reader.quantity_at(view, key, dimension);
     let vertical = number(reader, "vertical_stiffness", Dimension::Stiffness);
     let sway = or_rigid(reader, view, "sway_stiffness", Dimension::Stiffness);
     let damping = ["vertical_damping", "sway_damping"]
@@ -141,28 +132,15 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Soil> {
             coupling: coupling?,
         });
     }
-    let velocity = needed(
-        reader,
+    let velocity = reader.needed_quantity(
         &view,
         "shear_wave_velocity",
         Dimension::Speed,
         "\"200 m/s\"",
     );
-    let density = needed(
-        reader,
-        &view,
-        "density",
-        Dimension::Density,
-        "\"1800 kg/m3\"",
-    );
-    let ratio = needed(
-        reader,
-        &view,
-        "poisson_ratio",
-        Dimension::Dimensionless,
-        "0.33",
-    );
-    let damping = given(reader, &view, "damping", Dimension::Dimensionless);
+    let density = reader.needed_quantity(&view, "density", Dimension::Density, "\"1800 kg/m3\"");
+    let ratio = reader.needed_quantity(&view, "poisson_ratio", Dimension::Dimensionless, "0.33");
+    let damping = reader.quantity_at(&view, "damping", Dimension::Dimensionless);
     if matrices {
         for key in keys {
             if let Some(field) = reader.get(&view, key) {
@@ -231,27 +209,4 @@ fn matrix(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Option
         matrix.push(values.into_iter().collect::<Option<Vec<f64>>>()?);
     }
     Some(matrix)
-}
-
-fn given(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    key: &'static str,
-    dimension: Dimension,
-) -> Option<f64> {
-    let field = reader.get(view, key)?;
-    reader.quantity(&field, dimension)
-}
-
-fn needed(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    key: &'static str,
-    dimension: Dimension,
-    example: &str,
-) -> Option<f64> {
-    if !view.has(key) {
-        reader.missing(view, key, format!("add {key} = {example}"));
-    }
-    given(reader, view, key, dimension)
 }

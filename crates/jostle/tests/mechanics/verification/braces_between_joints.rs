@@ -5,15 +5,15 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Stage};
 use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, solve_once};
 use jostle::{
-    Analysis, Bearing, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, GridLine,
-    GroundMotion, MemberRequest, Model, Outcome, PlanAxis, PlanPoint, Reach, RiccatiSweep, Rise,
-    Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, State, Structure, StrutLine, System,
-    Tier, Tiers,
+    Bearing, Diagonal, DiagonalKind, DiagonalPlace, GridLine, GroundMotion, Outcome, PlanAxis,
+    PlanPoint, Reach, RiccatiSweep, Rise, Solver, SpaceFrame, SpaceMember, SpacePlace,
+    SpaceSection, State, StrutLine, System, Tier, Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::motions::fading;
 use jostle_testkit::runs::{self, assembled};
 
+use super::diagonals_in_space::model;
 use super::struck_in_space::{Beams, Dense, condensed, transformed};
 
 const E: f64 = 30e9;
@@ -132,29 +132,6 @@ fn tiers(frame: SpaceFrame) -> Tiers {
         storey_heights: HEIGHTS.to_vec(),
         space_frame: Some(frame),
         ..Tiers::default()
-    }
-}
-
-fn model(tiers: Tiers, solver: Solver) -> Model {
-    Model {
-        title: "braces between joints".to_owned(),
-        buildings: vec![Building {
-            name: "A".to_owned(),
-            structure: Structure::Tiers(tiers),
-            damping: Damping::Rayleigh {
-                alpha: 0.4,
-                beta: 0.0,
-            },
-            ..Building::default()
-        }],
-        analysis: Analysis {
-            solver: Some(solver),
-            step: (solver != Solver::Modal).then_some(2e-3),
-            tolerance: 1e-6,
-            members: MemberRequest::all(),
-            ..Analysis::default()
-        },
-        ..Model::default()
     }
 }
 

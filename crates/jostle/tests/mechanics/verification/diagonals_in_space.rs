@@ -125,9 +125,10 @@ fn grid(lines_x: &[f64], lines_y: &[f64], storeys: usize, axial: bool) -> SpaceF
     }
 }
 
-fn model(tiers: Tiers, solver: Solver) -> Model {
+/// One building, whose members are followed, at a tolerance of 1e-6 or with steps of 2 ms.
+pub(super) fn model(tiers: Tiers, solver: Solver) -> Model {
     Model {
-        title: "diagonals in space".to_owned(),
+        title: "diagonals".to_owned(),
         buildings: vec![Building {
             name: "A".to_owned(),
             structure: Structure::Tiers(tiers),

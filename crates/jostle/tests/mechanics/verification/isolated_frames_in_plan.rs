@@ -16,10 +16,11 @@ use jostle::{
 };
 
 use jostle::pushover::{CannotPush, PushSettings, pushover};
-use jostle_testkit::models::{self, concrete, rectangle};
+use jostle_testkit::models::rectangle;
 use jostle_testkit::motions::fading;
 use jostle_testkit::runs::{self, assembled};
 
+use super::plan_frames::{frame, massless, standing};
 use crate::verification::support::{column, difference, largest, spring_forces};
 
 fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
@@ -33,41 +34,6 @@ fn in_two_directions() -> GroundMotion {
         across: Some(shaking("across", 5.3, 0.8)),
     }));
     motion
-}
-
-fn frame(storeys: usize, spans: &[f64]) -> Frame {
-    Frame {
-        beam_mass: vec![5850.0; storeys],
-        column_segments: 4,
-        beam_segments: vec![4; spans.len()],
-        ..models::frame(storeys, spans, concrete(0.5, 0.5), concrete(0.3, 0.6))
-    }
-}
-
-fn massless(mut frame: Frame) -> Frame {
-    frame
-        .columns
-        .iter_mut()
-        .for_each(|column| column.line_mass = 0.0);
-    frame.beam_mass.iter_mut().for_each(|mass| *mass = 0.0);
-    frame.column_segments = 1;
-    frame
-        .beam_segments
-        .iter_mut()
-        .for_each(|beam_segment| *beam_segment = 1);
-    frame
-}
-
-fn standing(name: &str, at: PlanPoint, angle: f64, frame: Frame) -> PlanFrame {
-    PlanFrame {
-        name: name.to_owned(),
-        at,
-        direction: [angle.cos(), angle.sin()],
-        lines: Vec::new(),
-        base: Base::default(),
-        hinges: FrameHinges::default(),
-        frame,
-    }
 }
 
 fn held_by(floors: Vec<Tier>, heights: Vec<f64>, frames: Vec<PlanFrame>) -> Tiers {

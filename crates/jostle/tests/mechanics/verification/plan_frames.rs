@@ -14,7 +14,8 @@ use jostle_testkit::models::{self, CONCRETE, FIVE_PERCENT, concrete, rectangle};
 use jostle_testkit::motions::fading;
 use jostle_testkit::runs::{self, assembled};
 
-fn frame(storeys: usize, spans: &[f64]) -> Frame {
+/// Heavy columns and beams, both in four segments.
+pub(super) fn frame(storeys: usize, spans: &[f64]) -> Frame {
     Frame {
         beam_mass: vec![5850.0; storeys],
         column_segments: 4,
@@ -24,7 +25,7 @@ fn frame(storeys: usize, spans: &[f64]) -> Frame {
 }
 
 /// The same without mass, so that only floors have any.
-fn massless(mut frame: Frame) -> Frame {
+pub(super) fn massless(mut frame: Frame) -> Frame {
     frame
         .columns
         .iter_mut()
@@ -38,7 +39,7 @@ fn massless(mut frame: Frame) -> Frame {
     frame
 }
 
-fn standing(name: &str, at: PlanPoint, angle: f64, frame: Frame) -> PlanFrame {
+pub(super) fn standing(name: &str, at: PlanPoint, angle: f64, frame: Frame) -> PlanFrame {
     PlanFrame {
         name: name.to_owned(),
         at,
