@@ -1,7 +1,7 @@
 # %% [markdown]
 # # From Python
 #
-# This page is a Python script; the site shows it with its results. To run it yourself, install the package first
+# This page is a Python script, shown with its results. To run it yourself, first install the package
 # ([Install and first run](install.html)).
 #
 # ## A first run
@@ -16,7 +16,7 @@ result = jostle.run("paper", pga="70 cm/s2", gap="10 mm")
 print(result)
 
 # %% [markdown]
-# `result.summary` contains all numbers of the summary in SI units, and `result.impacts` one entry per impact.
+# `result.summary` contains the numbers of `summary.json` in SI units, and `result.impacts` has one entry per impact.
 
 # %%
 gap = result.summary["gaps"][0]
@@ -63,8 +63,8 @@ print(jostle.run(pair))
 # %% [markdown]
 # ## Peak force against gap
 #
-# Many runs of one model give the peak force as a function of the gap. With `record_interval=None` a run stores no histories, which saves
-# memory and time; peaks are the same.
+# Repeated runs of one model give the peak force as a function of the gap. With `record_interval=None` a run stores no histories, which
+# saves memory and time. The peaks are the same.
 
 # %%
 import numpy as np
@@ -93,14 +93,13 @@ for rule in critical.rules:
 # %% [markdown]
 # ## Errors
 #
-# A wrong unit raises `jostle.ModelError`, whose message names the place of the error and suggests a correction.
+# A wrong unit raises `jostle.ModelError`. Its message names the invalid value and suggests a correction.
 
 # %%
 try:
-    jostle.Gap("20 kg")
     jostle.Model([soft, stiff], jostle.Gap("20 kg"))
 except jostle.ModelError as error:
     print(error)
 
 # %% [markdown]
-# Next: the [Python package](../python.html) describes studies, motions, user-defined contact laws, and all classes and functions.
+# Next: the page [jostle in Python](../python.html) describes studies, motions, user-defined contact laws, and all classes and functions.

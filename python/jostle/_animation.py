@@ -18,7 +18,7 @@ _STAGE_ONLY = (
 
 
 class Animation:
-    """The animation of a report. A notebook displays it without a network.
+    """The animation of a report. A notebook displays it, also offline.
 
     Examples:
         >>> import jostle

@@ -8,7 +8,7 @@ _Answer = TypeVar("_Answer")
 
 
 class Answers(list[_Answer]):
-    """A list of answers; a notebook shows all of them.
+    """A list of results; a notebook shows all of them.
 
     Examples:
         >>> import jostle

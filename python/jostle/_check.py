@@ -10,7 +10,7 @@ from . import _jostle
 
 
 class Check:
-    """A model, checked without running it: the answer of :meth:`Model.check`.
+    """A model, checked without running it: the result of :meth:`Model.check`.
 
     Examples:
         >>> import jostle
@@ -31,7 +31,7 @@ class Check:
 
     @property
     def notes(self) -> list[str]:
-        """What was assumed where the model does not say."""
+        """Assumptions where the model gives no value."""
         return cast("list[str]", self.tree["notes"])
 
     @property

@@ -24,23 +24,23 @@ Observer = Callable[[float, float], object]
 
 @dataclass(frozen=True)
 class Footprints:
-    """What footprints hold: the answer of :func:`footprints`.
+    """Contents of a footprint file: the result of :func:`footprints`.
 
     Attributes:
         rows: rows of the file.
         buildings: buildings that are kept.
         columns: attribute and name of the column that holds it.
         storeys_known: buildings whose storeys are given.
-        heights_known: the same of heights.
-        years_known: the same of years of construction.
-        types_known: the same of structural types.
-        mends: what was mended, left out or assumed, and how often.
+        heights_known: buildings whose height is given.
+        years_known: buildings whose year of construction is given.
+        types_known: buildings whose structural type is given.
+        mends: what was repaired, omitted or assumed, and how often.
         pairs: pairs of neighbours.
-        overlaps: outlines that share more than a fifth of the smaller one; they count as no neighbours.
+        overlaps: pairs of outlines that overlap by more than a fifth of the smaller one; they do not count as neighbours.
         with_neighbours: buildings that have a neighbour.
         inside: pairs inside a row of buildings.
         at_end: pairs at the end of a row.
-        at_corner: pairs that meet around a corner.
+        at_corner: pairs around a corner of a block.
         blocks: blocks of neighbours.
         largest_block: buildings of the largest block.
 
@@ -77,14 +77,14 @@ def footprints(
     reach: Quantity = 0.5,
     out: str | os.PathLike[str] | None = None,
 ) -> Footprints:
-    """Reads footprints and finds who stands beside whom, as ``jostle city check`` and ``jostle city pairs``.
+    """Reads footprints and finds pairs of neighbours, like ``jostle city check`` and ``jostle city pairs``.
 
     Args:
         path: GeoJSON, GeoParquet, or CSV with outlines as WKT or GeoJSON.
-        columns: column of an attribute that has another name than the usual ones, such as ``{"storeys": "FLOORS"}``; attributes are
+        columns: names of columns that differ from the usual ones, such as ``{"storeys": "FLOORS"}``; attributes are
             id, footprint, storeys, height, year and type.
-        metres: coordinates are metres, not degrees of longitude and latitude.
-        reach: buildings no farther apart on the map are neighbours; 0 to 100 m.
+        metres: whether coordinates are in metres instead of degrees of longitude and latitude.
+        reach: greatest distance between neighbours on the map; 0 to 100 m.
         out: folder for ``buildings.parquet``, ``pairs.parquet``, ``blocks.parquet`` and ``mended.csv``.
 
     Raises:
@@ -105,7 +105,7 @@ def footprints(
 
 
 def city_types() -> str:
-    """The table of structural types that a city and classes take without one of their own, as the text of a CSV.
+    """Returns the default table of structural types of cities and classes, as the text of a CSV file.
 
     Write it to a file, replace rows, and name the file in ``[buildings] table`` of a city file or a classes file.
 
@@ -120,16 +120,16 @@ def city_types() -> str:
 def example_city(
     folder: str | os.PathLike[str], *, buildings: int = 2000, seed: int = 1, force: bool = False
 ) -> Path:
-    """Writes a made-up city to try with, ``city.geojson`` and ``city.toml``, and returns the path of the latter.
+    """Writes an invented city as an example, ``city.geojson`` and ``city.toml``, and returns the path of ``city.toml``.
 
     Args:
         folder: where to write.
-        buildings: how many, up to 2,000,000.
+        buildings: number of buildings, up to 2 000 000.
         seed: random seed.
-        force: true replaces files that are there.
+        force: true replaces existing files.
 
     Raises:
-        FileExistsError: a file is there already.
+        FileExistsError: a file already exists.
 
     Examples:
         >>> import jostle
@@ -154,7 +154,7 @@ class City:
 
     Args:
         path: the city file.
-        draws: draws of gaps and buildings for every motion, instead of those of the file.
+        draws: number of random draws of gaps and buildings for every motion, instead of that in the file.
         tolerance: relative error of peaks, 0.001 to 0.1, instead of that of the file.
 
     Raises:
@@ -166,7 +166,7 @@ class City:
         pairs: pairs of neighbours.
         cases: pairs times draws times motions.
         motions: names of the motions.
-        notes: how motions were found that differ from place to place.
+        notes: how motions that differ between sites were obtained.
 
     Examples:
         >>> import jostle
@@ -208,7 +208,9 @@ class City:
         client: Any = None,
         progress: bool | Observer = False,
     ) -> CityResult:
-        """Runs what a folder lacks, with and without contact. The same call goes on after any interruption, with the same bits.
+        """Runs the missing parts of a folder, with and without contact.
+
+        After any interruption, the same call continues and gives bit-identical results.
 
         Args:
             out: folder of the results; with a client, one that all workers can access.
@@ -265,7 +267,7 @@ def _compute(recipe: tuple[str, int | None, float | None], folder: str, part: in
 
 @dataclass(frozen=True)
 class CitySummary:
-    """Means over the buildings with a neighbour, from 0 to 1: the answer of :meth:`CityResult.report`.
+    """Means over the buildings with a neighbour, from 0 to 1: the result of :meth:`CityResult.report`.
 
     Attributes:
         buildings: buildings with a neighbour.
@@ -273,13 +275,13 @@ class CitySummary:
         struck: the same at the median.
         struck_double_gaps: the same at twice the median.
         column_strike: probability that a slab strikes columns.
-        moderate_alone: probability of moderate damage and worse without neighbours.
+        moderate_alone: probability of moderate or worse damage without neighbours.
         moderate: the same with neighbours.
-        worse: share of samples whose damage state contact makes worse.
-        better: share of samples that contact spares a state.
+        worse: fraction of samples in which contact worsens the damage state.
+        better: fraction of samples in which contact improves the damage state.
         sample_rows: rows that were run again in full.
-        sample_within: share of their peaks within the tolerance; ``None`` without any.
-        sample_worst: worst deviation; ``None`` without any.
+        sample_within: fraction of the peaks of these rows within the tolerance; ``None`` if there are none.
+        sample_worst: greatest deviation; ``None`` if there are none.
 
     Examples:
         >>> import jostle
@@ -327,7 +329,7 @@ class CityResult:
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> CityResult:
-        """The run of a folder, whose city file must still be where it was.
+        """Loads the run in a folder; the city file must still have the same path.
 
         Raises:
             ModelError: the folder holds no run, or its city file, footprints or motions have changed.
@@ -355,7 +357,7 @@ class CityResult:
         return CitySummary(**json.loads(self.city._core.report(os.fspath(self.folder))))
 
     def model(self, pair: int, draw: int = 0, motion: int = 0) -> Model:
-        """A pair as a model, to be run and changed like every other; numbers count from 0.
+        """Returns a pair as a model, which can be run and changed like any other; numbers count from 0.
 
         Raises:
             ModelError: there is no such pair, or it shares a wall in this draw.
@@ -369,7 +371,7 @@ class ClassesResult:
 
     Attributes:
         folder: the folder: ``index.html``, ``cases.parquet``, ``fragility.parquet``, ``fragility.xml`` for OpenQuake, ``pelicun.csv``.
-        left_out: what the fragility models of OpenQuake and Pelicun leave out, and why.
+        left_out: what the fragility models of OpenQuake and Pelicun omit, and why.
 
     Examples:
         >>> from pathlib import Path
@@ -394,7 +396,7 @@ def classes(
     progress: bool | Observer = False,
     force: bool = False,
 ) -> ClassesResult:
-    """Fragility of classes of buildings with and without pounding, as ``jostle classes``.
+    """Computes the fragility of building classes with and without pounding, like ``jostle classes``.
 
     Args:
         path: the classes file.

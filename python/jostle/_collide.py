@@ -53,9 +53,9 @@ class Collision:
         peak_indentation: greatest indentation [m].
         duration: from first contact to the last instant of force [s].
         impulse: time integral of the force [N·s].
-        dissipated: kinetic energy lost [J].
+        dissipated: dissipated kinetic energy [J].
         time: instants [s], shape ``(points,)``.
-        indentation: indentation at them [m].
+        indentation: indentation at these instants [m].
         rate: its rate [m/s].
         force: force [N].
 
@@ -126,12 +126,12 @@ def collide(
     Args:
         law: a name of :func:`contact_laws`, or a user-defined law; for the latter only masses and speed are used.
         m1: mass [kg].
-        m2: the other one; ``float("inf")`` is not accepted, use a large mass for a wall [kg].
+        m2: the other mass [kg]; for a wall use a large mass, as ``float("inf")`` is not accepted.
         speed: closing speed at first contact, > 0 [m/s].
         formula: instead of a law, the force as in :class:`Gap`: ``"k * d^1.5 * (1 + 0.6 * v / v0)"``.
         stiffness: in N/m^1.5 for the Hertz family, in N/m for the others; 2e9 N/m^1.5 by default.
         restitution: coefficient of restitution, 0 to 1; 0.65 by default.
-        restitution_is: ``"input"``: it goes into the published formula; ``"realised"``: free masses rebound with it.
+        restitution_is: ``"input"``: it is used in the published formula; ``"realised"``: free masses rebound with it.
         damping: of ``kelvin``, ``kelvin-no-tension`` and ``modified-kelvin`` after Mahmoud and Jankowski: dashpot instead
             of ``restitution``, ≥ 0 [N·s/m].
         variant: of ``modified-kelvin``: ``"ye"`` or ``"mahmoud-jankowski"``.

@@ -16,7 +16,7 @@ from ._tree import text_of
 
 
 class Comparison:
-    """A model on the recorded motion of a shake table, compared with what was measured there.
+    """A model under the recorded motion of a shake table, compared with the measurements.
 
     Examples:
         >>> import jostle
@@ -58,7 +58,7 @@ class Comparison:
         """Scores of one result, such as ``"A.floor1.displacement_m"``: peaks, ratio, correlation, difference.
 
         Raises:
-            KeyError: it was not compared.
+            KeyError: this result was not compared.
         """
         for column in self.summary["columns"]:
             if column["computed"] == computed:
@@ -93,10 +93,10 @@ def compare(
     *,
     force: bool = False,
 ) -> Comparison:
-    """Runs a model on the recorded motion of a shake table and scores it against the measurements.
+    """Runs a model with the recorded motion of a shake table and compares it with the measurements.
 
     Args:
-        model: a model, its file or its tree; its own motion is not used.
+        model: a model, its file or its tree; the motion of the model is not used.
         data: measurements in the NEES ``.asc`` layout.
         map: which columns of the data belong to which results: a file, or its tree, such as
             ``{"table_acceleration": "A0", "column": [{"measured": "D1", "computed": "A.floor1.displacement_m"}]}``.

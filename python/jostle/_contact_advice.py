@@ -43,9 +43,9 @@ class StiffnessEstimate:
         name: its name.
         family: ``"hertz"`` or ``"linear"``.
         stiffness: in N/m^1.5 of the Hertz family, in N/m of the linear one.
-        peak_force: peak force of an elastic collision of the masses with it [N].
+        peak_force: peak force of an elastic collision of the masses with this stiffness [N].
         duration: time in contact of that collision [s].
-        is_valid: whether its assumptions hold here.
+        is_valid: whether its assumptions are satisfied in this case.
         source: where it comes from.
         validity: what it assumes.
 
@@ -71,7 +71,7 @@ class WaveEstimate:
     """The collision of two floors as elastic rods with distributed mass.
 
     Attributes:
-        transit: times in which a wave runs along the left and the right floor [s].
+        transit: travel times of a wave along the left and the right floor [s].
         peak_force: greatest force [N].
         duration: time in contact [s].
         restitution: apparent restitution of the centres of mass [–].
@@ -91,7 +91,7 @@ class WaveEstimate:
 
 @dataclass(frozen=True)
 class LateralRule:
-    """The rule of many studies: contact as a multiple of the lateral stiffness of the stiffer neighbour.
+    """A rule used in many studies: contact stiffness as a multiple of the lateral stiffness of the stiffer neighbour.
 
     Attributes:
         of: name of the stiffer neighbour.
@@ -122,13 +122,13 @@ class ContactAdvice:
         masses: colliding masses [kg]; ``None`` is a rigid wall.
         speed: impact speed [m/s].
         moduli: Young's moduli of the floors [Pa].
-        wave: collision of the floors as rods; ``None`` without their size.
+        wave: collision of the floors as rods; ``None`` if their size is unknown.
         estimates: estimates of stiffness.
         hertz: recommended stiffness of the Hertz laws [N/m^1.5].
-        linear: recommended stiffness of the linear laws [N/m]; ``None`` without the size of the slabs.
-        lateral: what the habit of many studies gives for linear laws; ``None`` without a model.
+        linear: recommended stiffness of the linear laws [N/m]; ``None`` if the size of the slabs is unknown.
+        lateral: stiffness by a rule of many studies for linear laws; ``None`` without a model.
         restitution: recommended restitution [–].
-        notes: what was assumed, and what to heed.
+        notes: assumptions and warnings.
 
     Examples:
         >>> import jostle
@@ -171,16 +171,16 @@ def contact_advice(
 ) -> Answers[ContactAdvice]:
     """Returns stiffness and restitution for the contacts of a model, or of two floors: ``jostle contact-advice``.
 
-    A value with two entries is of the left and the right floor.
+    If a value has two entries, they are for the left and the right floor.
 
     Args:
-        model: gives the colliding masses: of every gap the pair of floors with the greatest effective mass.
+        model: model that gives the colliding masses: for every gap, those of the pair of floors with the greatest effective mass.
         mass: colliding masses > 0, in place of those of the model; needed without a model [kg].
         length: length of the slabs in the direction of the impact, > 0 [m].
-        width: width of the slabs across it, > 0 [m].
+        width: width of the slabs perpendicular to the impact, > 0 [m].
         thickness: thickness of the slabs, > 0 [m]; give all three sizes, or none.
         concrete: grade that gives the modulus: ``"C30"``, ``"C30/37"`` or ``"f'c = 4 ksi"``.
-        modulus: modulus of elasticity instead, > 0; 30 GPa by default [Pa].
+        modulus: modulus of elasticity instead of ``concrete``, > 0; 30 GPa by default [Pa].
         poisson_ratio: Poisson's ratio, 0 to 0.5.
         density: density, > 0 [kg/m³].
         speed: impact speed, > 0 [m/s].

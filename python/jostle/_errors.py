@@ -21,8 +21,8 @@ class Fault:
         path: the field, as in ``building[0].storey_height``; empty for the model as a whole.
         problem: description of the problem.
         remedy: the remedy, if known.
-        line: line of the model file, from 1; ``None`` for models made in Python.
-        column: column on that line, from 1.
+        line: line of the model file, from 1; ``None`` for models created in Python.
+        column: column in that line, from 1.
 
     Examples:
         >>> import jostle
@@ -143,7 +143,7 @@ class ModelWarning(JostleWarning):
 
 
 class StudyWarning(JostleWarning):
-    """A folder of results contained a damaged file or one of another study; it was moved to ``set-aside``.
+    """The folder of a study contained a damaged file, or a file of another study; it was moved to ``set-aside``.
 
     Examples:
         >>> import jostle

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Script:
-    """A model written for another program: the answer of :meth:`Model.export`.
+    """A model written for another program: the result of :meth:`Model.export`.
 
     Attributes:
         text: the script, or the list of buildings of exported matrices.

@@ -24,9 +24,9 @@ class Gradient:
         peak: the peak itself.
         at: the number itself.
         value: the derivative.
-        error: what the derivative may be wrong by: its difference from that of half the step.
-        valid_within: greatest change of the number, to either side, up to which the peak stays within 1 % of the straight line. Changes
-            of 0.1 to 50 % are tried.
+        error: error estimate of the derivative: difference between the derivatives for two steps.
+        valid_within: greatest change of the number, in either direction, for which the peak stays within 1 % of the linear
+            approximation. Changes of 0.1 to 50 % are tried.
 
     Examples:
         >>> import jostle
@@ -47,7 +47,7 @@ class Gradient:
 
     @property
     def elasticity(self) -> float:
-        """Relative change of the peak for one of the number; 0 for a peak of zero."""
+        """Relative change of the peak divided by the relative change of the number; 0 if the peak is zero."""
         return self.value * self.at / self.peak if self.peak else 0.0
 
 
@@ -57,9 +57,11 @@ def gradients(
     *,
     progress: bool | Callable[[float, float], object] = False,
 ) -> list[Gradient]:
-    """How every peak changes with numbers of a model, and how far a straight line holds, as ``jostle run --gradients``.
+    """Computes the derivatives of every peak with respect to numbers of a model, like ``jostle run --gradients``.
 
-    The model runs with each number a little less and a little more, 22 times for each.
+    The result also states the range in which each derivative is valid.
+
+    The model is run 22 times for each number, with slightly smaller and larger values.
 
     Args:
         model: the model, its file, the name of a built-in model, or a tree.
@@ -67,7 +69,7 @@ def gradients(
         progress: true shows a line on a terminal; or a function called with the numbers of finished runs and of all runs.
 
     Raises:
-        ModelError: a path leads to no number other than zero.
+        ModelError: a path does not lead to a nonzero number.
         AnalysisError: the model does not run to its end.
 
     Examples:

@@ -11,7 +11,7 @@ from ._units import Quantity, option_text
 
 
 class Imported:
-    """A model that was imported, and what was read: the answer of :func:`import_etabs` and :func:`import_sap2000`.
+    """A model that was imported, and what was read: the result of :func:`import_etabs` and :func:`import_sap2000`.
 
     Attributes:
         model: the model, as loaded from its file.
@@ -56,20 +56,22 @@ def import_etabs(
 ) -> Imported:
     """Writes a model file from files of ETABS, as ``jostle import etabs`` does, and loads it.
 
-    The answer shows what was read, what limits the model, what is not carried over, and periods beside those of the source.
+    The result shows what was read, the limits of the model, what was not imported, and a comparison of periods with those of
+    the source.
 
     Args:
         files: result tables (.xlsx), text models (.e2k, $et), and .OUT and .LOG files, of one building or of several; those of
-            one building have one name, as ``A.xlsx`` and ``A.OUT``.
+            one building have the same name, such as ``A.xlsx`` and ``A.OUT``.
         to: model file to write.
-        direction: ``"x"``, ``"y"`` or ``"both"``; in space by default where the files suffice.
-        by: ``"flexibility"``, ``"modes"``, ``"stiffness"``, ``"frame"`` or ``"members"``; the first that there is by default.
+        direction: ``"x"``, ``"y"`` or ``"both"``; by default with a plan if the files suffice.
+        by: ``"flexibility"``, ``"modes"``, ``"stiffness"``, ``"frame"`` or ``"members"``; by default the first one that the
+            files allow.
         gap: width of the gaps between neighbours.
         case: load case of Story Stiffness.
-        diaphragm: diaphragm of this building, where storeys have several.
+        diaphragm: diaphragm of this building, if storeys have several.
         unit_force: force of load cases named ``FX STORY`` and ``FY STORY``.
         unit_moment: moment of load cases named ``MZ STORY``.
-        units: units of tables that have no row of them, as ``"kN, m"``.
+        units: units of tables without a row of units, such as ``"kN, m"``.
         force: replace files even if jostle did not write them.
 
     Raises:
@@ -100,16 +102,16 @@ def import_sap2000(
     """Writes a model file from text models (.s2k, $2k) and .OUT and .LOG files of SAP2000, and loads it.
 
     Args:
-        files: as for :func:`import_etabs`; so are all others.
+        files: as for :func:`import_etabs`; this applies to all other arguments as well.
         to: model file to write.
         direction: ``"x"``, ``"y"`` or ``"both"``.
-        by: the way to the stiffness.
+        by: source of the stiffness.
         gap: width of the gaps between neighbours.
         case: load case of storey stiffnesses.
         diaphragm: diaphragm of this building.
         unit_force: force of unit load cases.
         unit_moment: moment of unit load cases.
-        units: units of tables that have no row of them.
+        units: units of tables without a row of units.
         force: replace files even if jostle did not write them.
 
     Raises:

@@ -88,7 +88,7 @@ class Values(MutableMapping[str, "str | None"]):
 
 
 class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
-    """The live page of a model: :meth:`Model.live` makes it."""
+    """The live page of a model, created by :meth:`Model.live`."""
 
     _esm = _SCRIPT
     _page = traitlets.Unicode().tag(sync=True)
@@ -109,20 +109,20 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
 
     @property
     def model(self) -> Model:
-        """The model as it now stands."""
+        """The current model."""
         name, _, is_json, folder, files = self._base
         return Model._read((name, self._engine.text, is_json, folder, files))
 
     @property
     def result(self) -> Result:
-        """Result of the model as it now stands, as :func:`run` gives it; computed when it is asked for."""
+        """Result of the current model, as returned by :func:`run`; computed on access."""
         text = self._engine.text
         if self._found is None or self._found[0] != text:
             self._found = (text, run(self.model))
         return self._found[1]
 
     def close(self) -> None:
-        """Removes the page and ends what it computes."""
+        """Removes the page and stops its computations."""
         self._engine.stop()
         self._run += 1
         self._curve += 1

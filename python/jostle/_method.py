@@ -14,7 +14,7 @@ from ._model import Model
 
 
 class MethodSurvey:
-    """How accurate each solver formulation is on the buildings of a model: the answer of :func:`method`.
+    """Accuracy of each solver formulation for the buildings of a model: the result of :func:`method`.
 
     Examples:
         >>> import jostle
@@ -47,7 +47,7 @@ class MethodSurvey:
 
 
 def method(model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> MethodSurvey:
-    """How accurate each solver formulation is on the buildings of a model.
+    """Computes how accurate each solver formulation is for the buildings of a model.
 
     Args:
         model: the model, its file, the name of a built-in model, or a tree.
@@ -90,7 +90,7 @@ def schema(what: str = "model") -> Any:
 
     Args:
         what: ``"model"``, the JSON Schema of model files; ``"results"``, every quantity of the results; ``"checks"``, every
-            check; ``"combinations"``, which kind of building has which feature, a text in Markdown.
+            check; ``"combinations"``, the features that each kind of building supports, a text in Markdown.
 
     Raises:
         ModelError: an unknown word.

@@ -43,10 +43,10 @@ class Model:
 
     Args:
         buildings: from left to right; tables of the model file are accepted as well.
-        gaps: one for each pair of neighbours, or one for all of them. ``between`` may be omitted from all. Walls need
-            it, and so do several gaps of one pair.
+        gaps: one for each pair of neighbours, or one for all pairs. ``between`` may be omitted, unless there are gaps next
+            to walls or several gaps for one pair.
         links: springs and dampers that join neighbours.
-        walls: walls that gaps and links can name.
+        walls: walls beside buildings, to which gaps and links can refer.
         soil: soil under buildings with a foundation.
         motion: a :class:`Motion`, the name or path of a record, or ``[motion]`` of the model file.
         title: printed on summaries and reports.
@@ -237,14 +237,14 @@ class Model:
         angle: Quantity | None = None,
         **units: Unpack[RunUnits],
     ) -> Model:
-        """Returns the model with another width of every gap, peak acceleration, ground motion or angle of it.
+        """Returns the model with another width of every gap, peak acceleration, ground motion or angle of the motion.
 
         Args:
             gap: width of every gap, a length ≥ 0; also ``gap_mm=20``.
             pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
             motion: a :class:`Motion` is used as it is; a record by name or path keeps the scaling of the model,
                 as on the command line. A list of one or the other gives a model with several records, for
-                :func:`run_suite`, :func:`critical_gap` and :class:`Study`; waves given by a formula become records then.
+                :func:`run_suite`, :func:`critical_gap` and :class:`Study`; analytic motions are then converted to records.
             angle: angle in plan from x to the motion, counter-clockwise, of buildings with a plan: ``"30 deg"``, or
                 radians.
 
@@ -271,15 +271,15 @@ class Model:
         return model
 
     def set(self, path: str, value: object) -> Model:
-        """Returns the model with one value of its model file changed; the new model can vary in studies.
+        """Returns the model with one value of its model file changed.
 
         Args:
             path: ``"gap[0].width"``, ``"gap[*].width"``, ``"building.J1.damping.ratio"``, ``"output.members"``, … as in
-                studies; tables that are absent are made.
+                studies; missing tables are created.
             value: text with unit, number in SI, flag, list, dict, NumPy array or pint quantity; ``None`` removes the key.
 
         Raises:
-            ModelError: the path leads nowhere, or the value is wrong.
+            ModelError: the path does not exist, or the value is wrong.
         """
         if not isinstance(path, str):
             raise TypeError(f"path: expected a text, found {type(path).__name__}")
@@ -347,14 +347,14 @@ class Model:
         return self._read(base, edits)
 
     def to_toml(self) -> str:
-        """The text of the model as a model file in TOML, with all its changes; comments of a TOML file stay.
+        """The text of the model as a model file in TOML, with all its changes; comments of a TOML file are kept.
 
         A :class:`Motion` object of the model is named there as a record; :meth:`save` writes that file.
         """
         return _jostle.as_toml(self._base())
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Writes the model as a TOML file, and beside it the records and matrices that it names.
+        """Writes the model as a TOML file, and next to it the records and matrices that the model names.
 
         Args:
             path: the file, ``.toml``.
@@ -392,7 +392,7 @@ class Model:
         """Checks the model without running it: masses, periods, contacts, findings, expected work.
 
         Raises:
-            ModelError: the ground motion cannot be used, or a run would lose its digits.
+            ModelError: the ground motion cannot be used, or a run would lose all digits.
         """
         from ._check import Check
 
@@ -402,12 +402,12 @@ class Model:
         """The model for another program: a script for OpenSeesPy, or NumPy archives of matrices.
 
         Args:
-            path: file for the script, or folder for the matrices, which need one.
+            path: file for the script, or folder for the matrices; required for matrices.
             to: ``"openseespy"`` or ``"matrices"``.
             force: true replaces files that jostle did not write.
 
         Raises:
-            ModelError: the model has what the other program lacks, field by field.
+            ModelError: the other program does not support some fields of the model, which the message lists.
             FileExistsError: a file exists and jostle did not write it.
         """
         from ._export import export
@@ -464,8 +464,8 @@ class Model:
     def live(self) -> LiveWidget:
         """The live page of this model as a widget of a Jupyter notebook.
 
-        The model runs at every change, in this process. ``widget.values["gap"] = "30 mm"`` changes a value from
-        Python, and ``widget.result`` is the :class:`Result` of the model as it now stands.
+        The model is run after every change, in this process. ``widget.values["gap"] = "30 mm"`` changes a value from
+        Python, and ``widget.result`` is the :class:`Result` of the current model.
 
         Raises:
             ImportError: ``anywidget`` is missing; ``pip install "jostle[live]"`` installs it.

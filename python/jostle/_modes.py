@@ -21,10 +21,10 @@ class BuildingModes:
         name: name of the building.
         periods: periods [s], shape ``(n,)``.
         circular_frequencies: ω [rad/s], shape ``(n,)``.
-        effective_mass_ratios_x: share of the mass that moves horizontally [–], shape ``(n,)``.
-        effective_mass_ratios_y: share of the mass that moves vertically [–], shape ``(n,)``.
-        effective_mass_ratios_across: in space, share of the mass that moves across [–], shape ``(n,)``; 0 in one plane.
-        effective_mass_ratios_torsion: in space, share of the polar mass that turns [–], shape ``(n,)``; 0 in one plane.
+        effective_mass_ratios_x: fraction of the mass that moves horizontally [–], shape ``(n,)``.
+        effective_mass_ratios_y: fraction of the mass that moves vertically [–], shape ``(n,)``.
+        effective_mass_ratios_across: with a plan, fraction of the mass that moves across [–], shape ``(n,)``; 0 without a plan.
+        effective_mass_ratios_torsion: with a plan, fraction of the polar mass that rotates [–], shape ``(n,)``; 0 without a plan.
         lateral: whether the mode is lateral (at least 1 % of the mass horizontally), shape ``(n,)``.
         floor_shapes: horizontal shapes at the floors from the ground up, the greatest ±1 [–], shape ``(n, f)``.
         lateral_periods: periods of the lateral modes, at most ``count`` [s].

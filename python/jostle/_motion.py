@@ -147,7 +147,7 @@ class Motion:
             component: channel of a file with several: its name, a direction such as ``"N-S"``, or its number.
             read: how the lines of a text file are read, as ``read`` in model files: ``skip``, ``last``, ``per_line``,
                 ``content`` (``"values"``, ``"pairs"`` or ``"columns"``) and ``widths``, such as ``{"per_line": 8}``.
-            format: format of the file, if it is recognised wrongly.
+            format: format of the file, if auto-detection is wrong.
             record_scale: factor on the numbers of the file, for example the size of one count.
             remove_mean: true removes the mean of the record.
 
@@ -192,8 +192,9 @@ class Motion:
         Args:
             path: the file ``EventGrid.csv``.
             unit: unit of the accelerations, which the files do not state: ``"g"``, ``"m/s2"``, ``"in/s2"``.
-            longitude: place of the buildings [degrees]; with ``latitude`` it chooses the nearest point. Not needed if there is one point.
-            latitude: as ``longitude``.
+            longitude: longitude of the buildings [degrees]; with ``latitude`` it selects the nearest point. Not needed if there
+                is only one.
+            latitude: latitude of the buildings [degrees].
             component: ``"x"``, ``"y"`` or ``"z"``.
 
         Raises:
@@ -258,7 +259,9 @@ class Motion:
         damping: float = 0.05,
         tolerance: float = 0.05,
     ) -> Motion:
-        """An artificial motion, sines under an envelope, matched to a design spectrum; ``motion.matched`` says how well.
+        """An artificial motion, sines under an envelope, matched to a design spectrum.
+
+        ``motion.matched`` states how well the spectra match.
 
         Args:
             target: the spectrum.
@@ -318,7 +321,7 @@ class Motion:
 
     @classmethod
     def recipe(cls, name: str) -> Motion:
-        """An artificial motion with a name, such as ``"nanjing-artificial"``, made again from its recipe."""
+        """A named artificial motion, such as ``"nanjing-artificial"``, generated again from its parameters."""
         return cls._made(*_jostle.recipe(name))
 
     @classmethod
@@ -342,9 +345,9 @@ class Motion:
             duration: length, > 0.
             step: time step, > 0.
             frequency: frequency of the ground filter [Hz].
-            ground_damping: its damping.
+            ground_damping: damping of the ground filter.
             corner: frequency of the second filter [Hz]; 0 disables it.
-            corner_damping: its damping.
+            corner_damping: damping of the second filter.
         """
         numbers = (
             _positive("step", step),
@@ -377,9 +380,9 @@ class Motion:
             velocity: peak velocity, > 0.
             period: period of the pulse, > 0.
             gamma: oscillations of a mavroeidis pulse, above 1.
-            phase: its phase [rad].
+            phase: phase of a mavroeidis pulse [rad].
             before: time at rest before the pulse.
-            after: time at rest after it.
+            after: time at rest after the pulse.
             step: time step, > 0.
         """
         numbers = (
@@ -451,7 +454,7 @@ class Motion:
         scale: float | None = None,
         pga: Quantity | None = None,
     ) -> Motion:
-        """The motion after these steps, which are taken in this order.
+        """Returns the motion after these steps, which are applied in this order.
 
         Args:
             start: keep from this time on.
@@ -459,11 +462,11 @@ class Motion:
             detrend: subtract a polynomial of this degree fitted to the acceleration.
             detrend_velocity: subtract the derivative of a polynomial of this degree fitted to the velocity.
             high_pass: corner of a high-pass Butterworth filter without phase shift [Hz].
-            low_pass: corner of a low-pass one [Hz].
+            low_pass: corner of a low-pass Butterworth filter without phase shift [Hz].
             order: order of both filters: 2, 4, 6 or 8.
             resample: new time step.
             pad_before: time at rest before the motion.
-            pad_after: time at rest after it.
+            pad_after: time at rest after the motion.
             at_rest: true corrects the motion so that velocity and displacement end at zero.
             scale: factor.
             pga: peak acceleration.
@@ -581,7 +584,7 @@ class Motion:
             periods: natural periods, > 0 [s], shape ``(n,)``; by default 200 from 0.02 to 10 s.
             damping: fraction of critical, 0 to below 1; one or several.
             ductility: ductilities of additional inelastic spectra, each ≥ 1.
-            post_yield: ratio of post-yield to initial stiffness of these.
+            post_yield: ratio of post-yield to initial stiffness of the inelastic spectra.
             between: true finds peaks between the samples too; false, as usual, at the samples only.
 
         Raises:

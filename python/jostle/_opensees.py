@@ -30,20 +30,21 @@ def from_opensees(
     """Returns the building that OpenSees holds in memory, elastic, by its matrices.
 
     Takes mass, damping and tangent stiffness at the current state and condenses displacements without mass, which is exact.
-    A model in the plane, or one in space without rigid diaphragms, becomes a building of one direction: floors are the levels
-    with horizontal mass, and a floor is hit at its outermost node. A model in space with a rigid diaphragm at every level
-    with mass becomes a building with a plan, which moves in both directions and turns. Analysis objects of the model
+    A plane model, or a model in space without rigid diaphragms, becomes a building that moves in one direction: floors are the
+    levels
+    with horizontal mass, and a floor is in contact at its outermost node. A model in space with a rigid diaphragm at every level
+    with mass becomes a building with a plan, which translates in both directions and rotates. Analysis objects of the model
     are removed; nodes, elements and loads stay as they are. OpenSees' message that a factorization failed is harmless: the mass
     matrix alone is singular. It is not shown.
 
     Args:
         ops: the module ``openseespy.opensees``, with a model.
         direction: 1 or ``"x"``, 2 or ``"y"`` (in space only): the horizontal direction along which buildings stand.
-            A building with a plan is turned so that this direction points along the row.
+            A building with a plan is rotated so that this direction points along the row.
         side: ``"right"`` or ``"left"``, where the neighbour stands; not used by buildings with a plan.
         units: force and length of the model, which OpenSees does not know: ``"kip, in"``; mass is force·s²/length.
         name: name of the building.
-        ports: the nodes that are hit, one for each floor, instead of the outermost ones.
+        ports: the nodes in contact, one for each floor, instead of the outermost nodes.
         plan: of a building with a plan, as in :class:`Given`, in metres; by default the rectangle around the nodes
             of each diaphragm.
         damping: as in :class:`Given`, instead of that of the model.
@@ -51,7 +52,7 @@ def from_opensees(
     Raises:
         ModelError: the model is empty, has no floors with mass, or its matrices cannot be those of a building; the message
             names nodes and remedy.
-        ModelWarning: (a warning) what is not carried over, and what it means.
+        ModelWarning: (a warning) what is not imported, and the consequences.
 
     Examples:
         >>> import jostle
@@ -79,16 +80,16 @@ def import_opensees(
 ) -> Given:
     """Runs an OpenSeesPy script and returns the building that it leaves in memory, as :func:`from_opensees` does.
 
-    The script runs as a program of its own folder. If it ends with ``wipe()``, the model is taken before. The script is a
-    program: it can do what you can do on this computer.
+    The script runs in its folder. If it ends with ``wipe()``, the model is read before. The script is a program and runs
+    with your permissions.
 
     Args:
         script: the script.
-        direction: as in :func:`from_opensees`; so are all others.
+        direction: as in :func:`from_opensees`; this applies to all other arguments as well.
         side: where the neighbour stands.
         units: force and length of the model.
         name: name of the building; by default that of the script.
-        ports: the nodes that are hit.
+        ports: the nodes in contact.
         plan: of a building with a plan.
         damping: instead of that of the model.
 

@@ -55,12 +55,12 @@ class Experiment:
 def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Experiment:
     """Runs a small elastic model with a contact law written in Python at every contact.
 
-    Average acceleration in equal steps with full matrices, and Newton's method for the forces of closed contacts:
-    slow, intended for testing laws. Ten to a hundred steps per contact are needed; halve the step to estimate the
+    It uses average acceleration in equal steps with full matrices, and Newton's method for the forces of closed contacts. It
+    is slow and intended for testing laws. Ten to a hundred steps per contact are needed; halve the step to estimate the
     error.
 
     Args:
-        model: the model; its own contact laws are not used.
+        model: the model; its contact laws are not used.
         law: the law.
         step: time step.
 

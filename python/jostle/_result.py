@@ -36,7 +36,7 @@ _IN_PLAN = (
 
 @dataclass(frozen=True, eq=False)
 class Floor:
-    """Histories of one floor, arrays of shape ``(n,)`` on the instants of ``result.time``.
+    """Histories of one floor: arrays of shape ``(n,)`` at the instants of ``result.time``.
 
     Attributes:
         building: name of the building.
@@ -44,7 +44,7 @@ class Floor:
         displacement: relative to the ground, positive to the right [m].
         velocity: relative to the ground [m/s].
         total_acceleration: ground included [m/s²].
-        displacement_across: across the row, of buildings with a plan [m]; ``None`` in one plane, as all below.
+        displacement_across: displacement across the row [m]; this and the following attributes are ``None`` without a plan.
         velocity_across: its rate [m/s].
         total_acceleration_across: across, ground included [m/s²].
         rotation: counter-clockwise seen from above [rad].
@@ -73,7 +73,7 @@ class Floor:
 
 @dataclass(frozen=True, eq=False)
 class Corner:
-    """Histories of a corner of a floor with a plan, on the instants of ``result.time``.
+    """Histories of a corner of a floor with a plan, at the instants of ``result.time``.
 
     Arrays have the shape ``(n, 2)``: along x and across.
 
@@ -81,7 +81,7 @@ class Corner:
         building: name of the building.
         floor: floor, from 1.
         corner: number of the corner, from 1, in the order of ``plan``.
-        at: its place on the site at rest [m].
+        at: position of the corner on the site at rest [m].
         displacement: relative to the ground [m].
         velocity: relative to the ground [m/s].
         total_acceleration: ground included [m/s²], for small rotations.
@@ -132,7 +132,7 @@ class BuildingResult:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """Its part of ``result.summary``."""
+        """The entry of this building in ``result.summary``."""
         return cast("dict[str, Any]", self._result.summary["buildings"][self._at])
 
     def floor(self, floor: int) -> Floor:
@@ -188,13 +188,13 @@ class BuildingResult:
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """One place where two neighbours can touch.
+    """One location where two neighbours can touch.
 
     Attributes:
         between: names of the left and the right building, or ``"wall"``.
         floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
         height: height above the base, or above the datum of elevations [m].
-        force: contact force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
+        force: contact force at the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
         peak_force: greatest force [N].
         impact_count: number of impacts.
 
@@ -221,9 +221,9 @@ class LinkedFloors:
         between: names of the left and the right building, or ``"wall"``.
         floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
         height: height above the base, or above the datum of elevations [m].
-        force: force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
-        stroke: shortening since rest on these instants [m]; ``None`` unless the model has ``output={"links": True}``.
-        speed: its rate [m/s]; ``None`` likewise.
+        force: force at the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
+        stroke: shortening since rest at these instants [m]; ``None`` unless the model has ``output={"links": True}``.
+        speed: rate of shortening [m/s]; ``None`` under the same condition.
         peak_force: force of greatest magnitude, with its sign [N].
         peak_stroke: greatest change of length, either sign [m].
         dissipated: energy dissipated in the damper [J].
@@ -281,12 +281,12 @@ class Result:
 
     @property
     def model(self) -> Model:
-        """The model as it was run."""
+        """The model that was run."""
         return self._model
 
     @property
     def motion(self) -> Motion:
-        """The ground motion as it was used."""
+        """The ground motion that was used."""
         return cast(Motion, self._model.motion)
 
     @property
@@ -301,7 +301,7 @@ class Result:
 
     @property
     def checks(self) -> list[dict[str, Any]]:
-        """Checks that the model or the results did not pass, worst first; empty if all are passed.
+        """Checks that the model or the results did not pass, worst first; empty if all passed.
 
         Each has ``id``, ``name``, ``grade`` (``"remark"``, ``"note"`` or ``"warning"``), ``value`` and ``limit`` in ``unit``,
         ``where``, ``text`` and ``remedy``. docs/checks.md lists all checks.
@@ -450,15 +450,15 @@ class Result:
         """Greatest forces of columns and beams, for a model with ``output={"members": True}``.
 
         One row per end, and one on either side of every point where a neighbour can strike a column: ``member``
-        (such as ``"J1.column.2.3"``: line, storey), ``end``, ``struck_height_m``, ``axial_max_n``, ``axial_min_n``,
+        (such as ``"J1.column.2.3"``: line 2, storey 3), ``end``, ``struck_height_m``, ``axial_max_n``, ``axial_min_n``,
         ``shear_peak_n``, ``moment_peak_n_m``. Axial forces are positive in tension.
 
         Args:
-            building: name of a building; ``None`` takes all.
+            building: name of a building; ``None`` for all.
 
         Raises:
             KeyError: no building has this name.
-            ValueError: the model does not ask for forces of members, or no building is a frame.
+            ValueError: the model does not request member forces, or no building is a frame.
         """
         index = self._index_of(building)
         if not any("members" in own for own in self.summary["buildings"]):
@@ -470,17 +470,17 @@ class Result:
 
         One row per member and rule, the governing rule first, then one per joint (``J1.joint.LINE.FLOOR``) and rule that has
         a clause for joints: ``member``, ``rule``, then for shear and bending (none of joints) the
-        greatest ratio (``shear_ratio``, ``bending_ratio``, under the axial force of the same instant), its instant
-        (``…_at_s``), section (``…_end``), the capacity then (``shear_capacity_n``, ``bending_capacity_n_m``), the first
-        excess (``…_exceeded_s``) and the start of the impact in progress (``…_impact_s``); ``axial_failure_drift`` and
+        greatest ratio (``shear_ratio``, ``bending_ratio``, under the axial force of the same instant), its time
+        (``…_at_s``), section (``…_end``), the capacity at this time (``shear_capacity_n``, ``bending_capacity_n_m``), the first
+        exceedance (``…_exceeded_s``) and the start of the impact in progress (``…_impact_s``); ``axial_failure_drift`` and
         ``axial_failure_ratio`` of columns. Absent values are NaN.
 
         Args:
-            building: name of a building; ``None`` takes all.
+            building: name of a building; ``None`` for all.
 
         Raises:
             KeyError: no building has this name.
-            ValueError: no capacity is known: members have no bars and ties, or forces of members are not asked for.
+            ValueError: no capacity is known: members have no bars and ties, or member forces are not requested.
         """
         index = self._index_of(building)
         if not any("capacity" in own for own in self.summary["buildings"]):
@@ -516,7 +516,7 @@ class Result:
 
     @cached_property
     def without_contact(self) -> Result | None:
-        """The result of the same buildings without contact, computed on first access. ``None`` without gaps."""
+        """The result of the same buildings without contact, computed on first access. ``None`` if the model has no gaps."""
         if not self.summary["gaps"] or not self.completed:
             return None
         if self._twin is None:
@@ -538,7 +538,7 @@ class Result:
 
         Args:
             path: file to write; an earlier page of jostle is replaced.
-            method: adds how accurate each solver formulation is on these buildings.
+            method: adds the accuracy of each solver formulation for these buildings.
             force: true replaces other files too.
 
         Returns:
@@ -546,7 +546,7 @@ class Result:
 
         Raises:
             FileExistsError: the file exists and jostle did not write it.
-            OSError: the file cannot be written; it is then as it was before.
+            OSError: the file cannot be written; an existing file is then unchanged.
         """
         _ = self.without_contact
         self._core.write(path, self._page(method), force)
@@ -562,7 +562,7 @@ class Result:
         Args:
             folder: created if it does not exist.
             report: false omits the report and its run without contact.
-            method: adds to the report how accurate each solver formulation is on these buildings.
+            method: adds to the report the accuracy of each solver formulation for these buildings.
             force: true replaces files of these names even if jostle did not write them.
 
         Returns:
@@ -580,10 +580,10 @@ class Result:
         return Path(folder)
 
     def to_excel(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Writes the numbers as an Excel workbook: summary, buildings, floors, contacts, impacts and, if asked for, members.
+        """Writes the numbers as an Excel workbook: summary, buildings, floors, contacts, impacts and, if requested, members.
 
-        Each sheet is one table with names and units in its first two rows; numbers are in SI, absent ones are empty cells. The sheet
-        ``Quantities`` says what every column means. Numbers without contact are included if that run exists, as after
+        Each sheet is one table with names and units in its first two rows; numbers are in SI, missing values are empty cells. The
+        sheet ``Quantities`` explains every column. Numbers without contact are included if that run exists, as after
         ``run(without_contact=True)``.
 
         Args:
@@ -595,14 +595,14 @@ class Result:
 
         Raises:
             FileExistsError: the file exists and jostle did not write it.
-            OSError: the file cannot be written; it is then as it was before.
+            OSError: the file cannot be written; an existing file is then unchanged.
         """
         twin = self.__dict__.get("without_contact")
         self._core.workbook(path, self._twin if twin is None else twin._core, force)
         return Path(path)
 
     def pdf(self, path: str | os.PathLike[str], *, paper: str = "a4", force: bool = False) -> Path:
-        """Prints the report to a PDF file by a Chromium that is installed on this machine.
+        """Prints the report to a PDF file with an installed Chromium browser.
 
         Args:
             path: file to write; an earlier PDF of a report is replaced.
@@ -615,7 +615,7 @@ class Result:
         Raises:
             ModelError: no Chromium was found, with a remedy.
             AnalysisError: Chromium could not print.
-            FileExistsError: the file exists and is no PDF of a report.
+            FileExistsError: the file exists and is not a PDF of a report.
         """
         _ = self.without_contact
         self._core.print(path, self._page(), paper, force)
@@ -626,7 +626,7 @@ class Result:
         return Animation(self._page())
 
     def plot(self) -> Figure:
-        """A matplotlib figure: roof displacements, contact forces, ground acceleration (needs ``jostle[plot]``)."""
+        """A matplotlib figure: roof displacements, contact forces, ground acceleration (needs matplotlib)."""
         from ._plot import figure
 
         return figure(self)

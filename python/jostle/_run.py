@@ -55,9 +55,9 @@ def run(
 ) -> Result:
     """Runs a model from rest through its ground motion.
 
-    Other Python threads continue during a run. The result depends only on the arguments, bit by bit, and equals that of
+    Other Python threads continue during a run. The result depends only on the arguments and is bit-identical to that of
     the command line. Ctrl-C stops the run: the result then covers the time until then (``result.completed`` is
-    false), with an :class:`InterruptedWarning`; a second Ctrl-C within two seconds raises as usual.
+    false), with an :class:`InterruptedWarning`; a second Ctrl-C within two seconds raises ``KeyboardInterrupt``.
 
     Args:
         model: the model, a model file, a built-in name such as ``"paper"``, or the tree of a model file.
@@ -68,12 +68,13 @@ def run(
         pounding: false runs the buildings without contact.
         without_contact: adds a second run without contact, as the command line does for its report; the summary
             then includes the gap needed.
-        sensitivity: runs the model with both ends of the advised contact stiffness and with restitution ± 0.15 as well;
-            ``result.summary["contact_sensitivity"]`` then has the spread of forces and the greatest changes of every building.
-        record_interval: least time between recorded instants in free vibration, zero for every step (every step of a
-            closed contact is recorded); ``None`` records no histories. Rows are additional steps of modal stepping, so
-            its last digits depend on them.
-        progress: true shows the progress of a run of more than half a second: a line on a terminal (standard error),
+        sensitivity: also runs the model with the lowest and the highest advised contact stiffness and with restitution ± 0.15;
+            ``result.summary["contact_sensitivity"]`` then contains the range of forces and the greatest changes for every
+            building.
+        record_interval: minimum time between recorded instants in free vibration, zero for every step (during contact every
+            step is recorded); ``None`` records no histories. Modal stepping makes an additional step for every recorded
+            instant, so the last digits of its results depend on this interval.
+        progress: true shows the progress of a run that takes more than half a second: a line on a terminal (standard error),
             a bar in a Jupyter notebook, nothing elsewhere. A function is called with the current and the final
             time [s] a few times per second.
         force: runs even if ``solver = "product"`` is expected to lose all digits.
@@ -81,7 +82,7 @@ def run(
     Raises:
         ModelError: model, motion or an argument is wrong; :class:`MissingFileError` if the model file does not exist.
         TypeError: an unknown keyword, with the nearest known one.
-        AnalysisError: a step failed; ``error.result`` has the results up to then.
+        AnalysisError: a step failed; ``error.result`` has the results up to that step.
 
     Examples:
         >>> import jostle

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class SectionAnswer:
-    """Cracking and yield of reinforced sections, by formulas and by fibre analysis: the answer of :func:`section`.
+    """Cracking and yield of reinforced sections, by formulas and by fibre analysis: the result of :func:`section`.
 
     Examples:
         >>> import jostle
@@ -97,17 +97,17 @@ def section(
     """Moments and rotations at which reinforced members crack and yield.
 
     Args:
-        model: every reinforced member of a model; or width, depth and bars of a section.
+        model: model whose reinforced members are analysed, instead of width, depth and bars of a section.
         width: width, across the direction of bending.
         depth: depth, in the direction of bending.
         bars: bars, such as ``"12 d20"`` around, or ``"4 d25 top, 3 d25 bottom"``.
         concrete: grade, or prismatic strength.
         steel: grade, or yield strength.
-        strength: strength that belongs to a grade: ``"characteristic"``, ``"mean"`` or ``"design"``.
+        strength: strength level of a grade: ``"characteristic"``, ``"mean"`` or ``"design"``.
         cover: concrete cover of the bars.
         ties: ties that confine the core, such as ``"d10 @ 100 mm"``.
-        axial_load: axial compression; without it, a beam.
-        length: length of the member, bent in double curvature.
+        axial_load: axial compression; if not given, the section is that of a beam.
+        length: length of the member, which is assumed to bend in double curvature.
 
     Raises:
         ModelError: an argument is wrong, or the model has no reinforced member.

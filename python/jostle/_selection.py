@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class DesignSpectrum:
-    """A design spectrum of a code, or the points of a file.
+    """A design spectrum of a code, or the points in a file.
 
     Args:
         code: ``"gb50011"``, ``"en1998"`` or ``"asce7"``.
@@ -97,7 +97,7 @@ class DesignSpectrum:
             damping: fraction of critical.
 
         Raises:
-            ModelError: a period outside the spectrum.
+            ModelError: a period is outside the range of the spectrum.
         """
         import numpy as np
 
@@ -117,7 +117,7 @@ class DesignSpectrum:
 
 
 class Selection:
-    """A set of motions, checked by the rules of a code: the answer of :meth:`Motion.select`.
+    """A set of motions, checked by the rules of a code: the result of :meth:`Motion.select`.
 
     Examples:
         >>> import jostle

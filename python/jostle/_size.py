@@ -29,7 +29,7 @@ class _TrialLine(ProgressLine):
 
 
 class SizeAnswer:
-    """A search for the least of something that keeps conditions: the answer of :func:`size`.
+    """A search for the smallest input that meets given conditions: the result of :func:`size`.
 
     Examples:
         >>> import jostle
@@ -50,24 +50,24 @@ class SizeAnswer:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """The best trial and what it costs to keep more or less: the tree of ``size.json``."""
+        """The best trial and the trade-off between objective and conditions: the tree of ``size.json``."""
         return cast("dict[str, Any]", json.loads(self._core.json()))
 
     @property
     def best(self) -> dict[str, str] | None:
-        """Values of the varied keys of the best trial, as texts with units; ``None`` if no trial keeps the conditions."""
+        """Values of the varied keys of the best trial, as texts with units; ``None`` if no trial meets the conditions."""
         best = self.summary["best"]
         return None if best is None else {own["key"]: own["text"] for own in best["inputs"]}
 
     @property
     def objective(self) -> float | None:
-        """The least value found, in SI; ``None`` if no trial keeps the conditions."""
+        """The smallest value found, in SI; ``None`` if no trial meets the conditions."""
         best = self.summary["best"]
         return None if best is None else cast("float | None", best["objective"])
 
     @property
     def converged(self) -> bool:
-        """Whether the search came to its own end."""
+        """Whether the search converged."""
         return cast(bool, self.summary["converged"])
 
     @cached_property
@@ -114,12 +114,12 @@ def size(
     progress: bool | Observer = False,
     force: bool = False,
 ) -> SizeAnswer:
-    """Searches the least damper, gap or other key that keeps conditions, such as no impact.
+    """Finds the smallest damper, gap or other input that meets given conditions, such as no impact.
 
     Args:
         model: the model, its file, the name of a built-in model, or a tree.
         vary: keys and their bounds: ``{"gap.width": ("5 mm", "300 mm")}``, or texts ``"gap.width=5 mm..300 mm"``; without
-            bounds (``None``) between a tenth and ten times the value of the model.
+            bounds (``None``) a key varies between a tenth and ten times its value in the model.
         minimise: a key, a result, or a sum such as ``"2 * link.force_peak_n + gap.peak_force_n"``.
         keep: conditions such as ``"impact_count == 0"``.
         motions: other ground motions: objects or names; by default those of the model.
@@ -127,11 +127,11 @@ def size(
         over: ``"worst"`` or ``"mean"`` of several records.
         both_signs: runs every motion with both signs; each counts as two records.
         seed: seed of the search.
-        trials: most trials, at least 10.
+        trials: maximum number of trials, at least 10.
         tolerance: relative convergence tolerance.
-        jobs: runs at the same time; by default one per core.
+        jobs: number of runs at the same time; by default one per core.
         out: folder for the results; the same call continues there. ``None`` writes nothing.
-        progress: true shows a line or a bar; or a function called with finished and most trials.
+        progress: true shows a line or a bar; or a function called with the number of finished trials and the maximum.
         force: replaces files in the folder that jostle did not write.
 
     Raises:

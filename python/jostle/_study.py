@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 class Study:
     """Many cases of one model: lists, ranges and distributions of any key of the model file.
 
-    The table has one row per case and is the same, bit by bit, for any number of threads, processes, workers and
-    interruptions. ``docs/studies.md`` describes the contents of a study.
+    The table has one row per case and is bit-identical for any number of threads, processes, workers and interruptions.
+    ``docs/studies.md`` describes the contents of a study.
 
     Args:
         model: the base model: a :class:`Model`, a model file, the name of a built-in model, or a tree.
@@ -95,7 +95,7 @@ class Study:
         Args:
             path: the file.
             model: replaces the base model of the file.
-            any_build: continues folders that another build of jostle began.
+            any_build: continues folders that another build of jostle started.
         """
         name = os.fspath(path)
         try:
@@ -181,7 +181,7 @@ class Study:
             progress: true shows a line on a terminal or a bar in a notebook; or a function called with
                 the numbers of finished cases and of all cases.
             report: true writes the report and its tables when all cases are finished.
-            csv: true writes ``cases.csv`` also of more than 200 000 cases.
+            csv: true writes ``cases.csv`` even for more than 200 000 cases.
 
         Raises:
             ModelError: the folder contains another study, or an argument is wrong.
@@ -378,21 +378,21 @@ def angles(
 ) -> AngleStudy:
     """Runs a model with plans at many angles of incidence, with and without contact, as ``jostle study angles``.
 
-    The same call resumes after any interruption. The report draws roses: quantities over the angle.
+    The same call resumes after any interruption. The report plots quantities over the angle (roses).
 
     Args:
         model: the model, or a model file.
         out: folder of the results.
-        step: between neighbouring angles, > 0: ``"10 deg"``, or radians.
+        step: step between angles, > 0: ``"10 deg"``, or radians.
         start: first angle, from x counter-clockwise.
-        stop: last angle; by default once around, which ends one step before the start.
+        stop: last angle; by default a full circle, which ends one step before the first angle.
         quantities: columns to draw; by default forces, impacts and peaks of buildings.
         jobs: threads; by default one per core.
         progress: true shows a line or a bar; or a function called with the numbers of finished cases and of all cases.
         report: true writes the report and its tables.
 
     Raises:
-        ModelError: the model is wrong, or in one plane; the range is none.
+        ModelError: the model is wrong or has no plans; the range is empty.
         OSError: a file cannot be written; finished cases are kept.
 
     Examples:
@@ -426,7 +426,7 @@ def angles(
 
 @dataclass(frozen=True)
 class RuleGap:
-    """The gap that a rule requires, and the outcome with it.
+    """The gap that a rule requires, and the outcome with this gap.
 
     Attributes:
         rule: short name.
@@ -436,7 +436,7 @@ class RuleGap:
         peak_force: greatest force at this gap [N].
         code: name of the code as in ``[codes]``; ``None`` for general rules.
         inputs: inputs that the rule used, with defaults marked.
-        setbacks: distances of both buildings from the property line between them [m], of rules for such lines.
+        setbacks: distances of both buildings from the property line between them [m], for rules about property lines.
 
     Examples:
         >>> import jostle
@@ -457,13 +457,13 @@ class RuleGap:
 
 @dataclass(frozen=True)
 class GapPoint:
-    """What a width of a gap leads to.
+    """Results for one width of a gap.
 
     Attributes:
         width: width [m].
         impact_count: impacts in the gap.
         peak_force: greatest contact force in the gap [N].
-        first_impact: first impact [s]; ``None`` without one.
+        first_impact: time of the first impact [s]; ``None`` if there is none.
         met: whether the run met its tolerance; ``None`` without an estimate.
 
     Examples:
@@ -487,13 +487,13 @@ class CriticalGap:
     Attributes:
         between: names of the neighbours.
         motion: name of the motion.
-        pga: its peak [m/s²].
+        pga: peak acceleration of the motion [m/s²].
         gap: smallest gap found without an impact [m].
         pounding_at: widest tested gap with an impact; ``None`` if there is no impact even at a gap of zero [m].
         closing_without_contact: peak closing of the buildings without contact [m].
         rules: gaps required by rules and codes.
         left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
-        curve: force and impacts over the gap, from zero to the smallest gap of both signs; empty unless asked for.
+        curve: force and impacts over the gap, from zero to the gap needed for both signs; empty unless requested.
         reversed_gap: smallest gap without an impact under the motion with the other sign [m].
         reversed_curve: ``curve`` under the motion with the other sign.
 
@@ -533,18 +533,18 @@ def critical_gap(
     outcomes: bool = True,
     curve: int = 0,
 ) -> Answers[CriticalGap]:
-    """Returns the gap needed, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
+    """Returns the gap needed, found by bracketing, and compares it with ABS, SRSS, DDC and codes.
 
     Args:
         model: the model, or a model file.
-        motions: ground motions, or names or paths of records; by default that of the model, or all of its list.
+        motions: ground motions, or names or paths of records; by default those of the model.
         pga: scales every motion to this peak [m/s², or a text with a unit].
         tolerance: width of the final bracket, ≥ 1e-9 [m].
         system: structural system for GB 50011: ``frame``, ``frame-wall``, ``wall`` or ``steel-frame``; by default that of
             ``[codes]`` in the model file.
         codes: codes whose rules are listed, such as ``["en1998", "asce7"]``; by default those of ``[codes]``, else all.
         outcomes: true also runs the model with the gap of every rule.
-        curve: number of equally spaced widths from zero to the smallest gap at which force and impacts are computed too, 2 to
+        curve: number of equally spaced widths, from zero to the gap needed, at which force and impacts are also computed, 2 to
             10000; 0 for none.
 
     Returns:

@@ -166,8 +166,8 @@ def run_suite(
 ) -> Suite:
     """Runs a model under every one of its records, on all cores.
 
-    With a folder, the same call continues after any interruption: records that are finished there are not run again. Results
-    are the same, bit by bit, for any number of threads. Ctrl-C raises ``KeyboardInterrupt``; finished records are kept.
+    With a folder, the same call continues after any interruption: finished records are not run again. Results are
+    bit-identical for any number of threads. Ctrl-C raises ``KeyboardInterrupt``; finished records are kept.
 
     Args:
         model: a model with several records, ``motion={"record": ["a.at2", "b.at2"]}``, or its file or tree.
@@ -178,10 +178,10 @@ def run_suite(
             default that of the model, else that of the code to whose spectrum the motions are matched, else
             ``"maximum"``.
         report: true adds a run without contact for every record and, with a folder, its report.
-        sensitivity: runs every record with other contact stiffnesses and restitutions as well.
-        jobs: records that run at the same time; by default one per core.
-        progress: true shows a line on a terminal or a bar in a notebook; or a function called with the share that is
-            done and 1.
+        sensitivity: also runs every record with other contact stiffnesses and restitutions.
+        jobs: number of records that run at the same time; by default one per core.
+        progress: true shows a line on a terminal or a bar in a notebook; or a function called with the finished
+            fraction and 1.
         force: replaces files in the folder that jostle did not write.
 
     Raises:

@@ -23,7 +23,7 @@ class Table:
     """Columns of equal length; their names contain units.
 
     ``table["time_s"]`` is a NumPy array, ``table[3]`` a row as a dict, ``table[2:5]`` a table of rows, and
-    ``table[table["time_s"] > 2]`` one of those that a mask selects. ``polars.DataFrame(table)``,
+    ``table[table["time_s"] > 2]`` a table of the rows that a mask selects. ``polars.DataFrame(table)``,
     ``pyarrow.table(table)`` and ``pandas.DataFrame.from_arrow(table)`` accept it directly (Arrow PyCapsule interface).
 
     Examples:

@@ -43,14 +43,14 @@ def custom_analysis(
     ``GeneralInformation`` of the asset names ``JostleModel``, a model file or a built-in model, and may name ``JostleBuilding``
     (the first by default) and ``JostleGap`` (width of every gap, with its unit). Degree of freedom 1 is along the row and 2 across, for
     buildings with a plan; vertical motion is left out with a warning. The motion is used as it is: scaling, sign and angle of the
-    model's own motion do not apply. Accelerations come in, and demands go out, in the units of the asset; without any, lengths are
+    model's own motion do not apply. Accelerations and demands are in the units of the asset; if it has none, lengths are in
     inches, as in SimCenter.
 
     Args:
         AIM: the asset.
         EVENT: the event: ``timeSeries`` and ``pattern``.
         SAM: the structural model; not used.
-        EDP: the demands that are asked for; a demand that is not among the results is warned of.
+        EDP: the requested demands; jostle warns of demands that are not among its results.
         BIM: the name of ``AIM`` in older versions of SimCenter.
 
     Returns:
