@@ -85,7 +85,7 @@ const KINDS: [Kind; 7] = [
     Kind {
         name: "frame, plan",
         keys: "kind = \"frame\"\nplan = [10, 8]\nmass = \"40 t\"\n",
-        tables: "[[building.frame]]\nat = [[0, 0], [0, 8]]\nspans = [5, 5]\nconcrete = \"C30\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n[[building.frame]]\nname = \"across\"\nat = [[0, 0], [10, 0]]\ndirection = \"y\"\nspans = [4, 4]\nconcrete = \"C30\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n",
+        tables: "[[building.frame]]\nat = [[0, 0], [0, 8]]\nspans = [5, 5]\nconcrete = \"C30\"\naxial = \"flexible\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n[[building.frame]]\nname = \"across\"\nat = [[0, 0], [10, 0]]\ndirection = \"y\"\nspans = [4, 4]\nconcrete = \"C30\"\naxial = \"flexible\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n",
         in_plan: true,
     },
     Kind {
@@ -172,7 +172,7 @@ fn of_fibres(kind: &str) -> Option<&'static str> {
 const OF_FIBRES_IN_SPACE: &str = "column = { size = [0.5, 0.5], steel = \"HRB400\", bars = \"12 d20\" }\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
 
 /// Columns of a frame at lines of a plan whose ends are made of fibres.
-const OF_FIBRES_IN_PLAN: &str = "column = { width = 0.5, depth = 0.5, steel = \"HRB400\", bars = \"12 d20\" }\naxial = \"flexible\"\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
+const OF_FIBRES_IN_PLAN: &str = "column = { width = 0.5, depth = 0.5, steel = \"HRB400\", bars = \"12 d20\" }\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
 
 /// Stands for columns that yield on a surface: those of fibres with another rule.
 const SURFACES: &str = "SURFACES";
@@ -241,7 +241,7 @@ fn features() -> Vec<Feature> {
 /// The table in Markdown: every kind of building with every feature, and what the program says of those that are not possible.
 pub(crate) fn table() -> String {
     let mut text = String::from(
-        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model adds one feature. A cell has `yes`, or `no` and the number\nof what the program says, below the table. Written by `jostle schema --combinations`.\n\n|",
+        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model adds one feature. A cell contains `yes`, or `no` with the number\nof the error message below the table. Written by `jostle schema --combinations`.\n\n|",
     );
     let mut refusals: Vec<String> = Vec::new();
     for kind in [""].into_iter().chain(KINDS.iter().map(|kind| kind.name)) {

@@ -12,7 +12,7 @@ use crate::terminal;
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Time between lines where no terminal shows a bar.
 const SILENCE: Duration = Duration::from_secs(30);
-/// Environment variable that keeps both away, with the value `off`.
+/// Environment variable that disables both, with the value `off`.
 const SWITCH: &str = "JOSTLE_PROGRESS";
 
 /// How far work has come and how long it takes: a bar on a terminal, after a while; elsewhere a line now and then.

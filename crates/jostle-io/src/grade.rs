@@ -65,7 +65,7 @@ fn strength_with_unit(text: &str) -> Result<f64, Trouble> {
         let problem = format!("f'c = {} has no unit", shorten(text));
         return Err((problem, remedy.to_owned()));
     }
-    let strength = parse_quantity(text, Dimension::Modulus)
+    let strength = parse_quantity(text, Dimension::Stress)
         .map_err(|error| (format!("f'c: {error}"), remedy.to_owned()))?;
     let [least, most] = CYLINDER_STRENGTHS;
     if (least..=most).contains(&strength) {
@@ -126,7 +126,7 @@ pub fn parse_steel(text: &str, level: StrengthLevel) -> Result<Steel, String> {
 }
 
 fn positive_strength(text: &str) -> Option<f64> {
-    let value = parse_quantity(text, Dimension::Modulus).ok()?;
+    let value = parse_quantity(text, Dimension::Stress).ok()?;
     (value > 0.0).then_some(value)
 }
 

@@ -29,6 +29,8 @@ pub enum Dimension {
     HertzStiffness,
     /// Modulus of elasticity \[Pa\].
     Modulus,
+    /// Stress, strength or pressure \[Pa\].
+    Stress,
     /// Mass per length \[kg/m\].
     LineMass,
     /// Mass per area \[kg/m²\].
@@ -63,7 +65,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -74,6 +76,7 @@ impl Dimension {
         Self::Flexibility,
         Self::HertzStiffness,
         Self::Modulus,
+        Self::Stress,
         Self::LineMass,
         Self::AreaMass,
         Self::Density,
@@ -105,6 +108,7 @@ impl Dimension {
             Self::Flexibility => ("a flexibility", "2.1e-8 m/N", "m/N", [0.0, -1.0, 2.0]),
             Self::HertzStiffness => ("a Hertz contact stiffness", "2e9 N/m^1.5", "N/m^1.5", [-0.5, 1.0, -2.0]),
             Self::Modulus => ("a modulus of elasticity", "30 GPa", "Pa", [-1.0, 1.0, -2.0]),
+            Self::Stress => ("a stress", "25 MPa", "Pa", [-1.0, 1.0, -2.0]),
             Self::LineMass => ("a mass per length", "3600 kg/m", "kg/m", [-1.0, 1.0, 0.0]),
             Self::AreaMass => ("a mass per area", "1000 kg/m2", "kg/m2", [-2.0, 1.0, 0.0]),
             Self::Density => ("a density", "2500 kg/m3", "kg/m3", [-3.0, 1.0, 0.0]),

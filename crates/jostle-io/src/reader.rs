@@ -464,7 +464,7 @@ impl<'s> Reader<'s> {
             .as_text()
             .is_some_and(|text| text.starts_with(|first: char| first.is_ascii_alphabetic()));
         if !looks_like_a_grade {
-            let strength = self.positive(field, Dimension::Modulus)?;
+            let strength = self.positive(field, Dimension::Stress)?;
             let bare = Written::from_node(field.node, strength).without_unit();
             if let Some(number) = bare.filter(|_| strength < LEAST_STRENGTH) {
                 let number = show_number(number);
@@ -516,7 +516,7 @@ impl<'s> Reader<'s> {
             return;
         };
         let text = field.as_text().unwrap_or_default();
-        let is_strength = parse_quantity(text, Dimension::Modulus).is_ok();
+        let is_strength = parse_quantity(text, Dimension::Stress).is_ok();
         let example = match is_strength && text.ends_with(|end: char| end.is_alphabetic()) {
             true => format!("f'c = {}", text.trim()),
             false => "f'c = 4 ksi".to_owned(),

@@ -186,7 +186,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::FibreLimits,
         "`hinges.limits` with fibres",
-        "Results report when fibres first exceed them; they do not affect the motion.",
+        "The time at which a limit is first exceeded is reported; limits do not affect the motion.",
     ),
     (
         Section::HingeSurface,
@@ -404,7 +404,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::CityContact, "City file: `[contact]`", ""),
     (
         Section::CityMotion,
-        "City file: `[motion]`, beside the keys of a model's",
+        "City file: `[motion]`, in addition to the keys of `[motion]` of a model",
         "",
     ),
     (Section::CityRun, "City file: `[run]`", ""),

@@ -198,10 +198,10 @@ fn kind(kind: Kind) -> Value {
         ] }),
         Kind::Concrete(grades) => json!({ "anyOf": [{ "enum": grades }, cylinder()] }),
         Kind::ConcreteOr(grades) => {
-            json!({ "anyOf": [{ "enum": grades }, cylinder(), quantity(Dimension::Modulus)] })
+            json!({ "anyOf": [{ "enum": grades }, cylinder(), quantity(Dimension::Stress)] })
         }
         Kind::GradeOr(grades) => {
-            json!({ "anyOf": [{ "enum": grades }, quantity(Dimension::Modulus)] })
+            json!({ "anyOf": [{ "enum": grades }, quantity(Dimension::Stress)] })
         }
     }
 }

@@ -143,7 +143,7 @@ impl Governing {
                 format!("Governing value: {taken} of {motions} motions ({clause}).")
             }
             (false, false) => format!(
-                "{clause} asks for at least {asked}; there are {motions}. Taken as governing value: {taken}."
+                "{clause} requires at least {asked}; there are {motions}. Governing value: {taken}."
             ),
         }
     }

@@ -854,7 +854,7 @@ fn describe_building(
     };
     writeln!(
         text,
-        "  damping of its lateral modes{before} {} %",
+        "  damping ratios of the lateral modes{before} {} %",
         acting.join(", ")
     )
 }

@@ -473,7 +473,7 @@ impl Known {
             of_spheres,
             true,
             "Goldsmith 1960; Muthukumar and DesRoches 2006",
-            "local contact of rounded bodies that move as a whole: the contact lasts longer than waves take along the floors and back twice",
+            "local contact of rounded bodies that move as a whole: the contact lasts longer than two round trips of a wave along the shorter floor",
         );
         if let Some(wave) = wave {
             let longest = wave.transit_s[0].min(wave.transit_s[1]);

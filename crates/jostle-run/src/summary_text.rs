@@ -277,7 +277,7 @@ fn write_buildings(
     if buildings.iter().any(raised) {
         writeln!(
             text,
-            "In brackets: low-pass filtered. The filter overshoots at impacts, so that its peak can be the greater one."
+            "The low-pass filtered peak (in brackets) can exceed the unfiltered one."
         )?;
     }
     Ok(())
@@ -434,13 +434,17 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         }
     }
     for wall in &summary.walls {
-        writeln!(
-            text,
-            "\"{}\" moves by up to {} under a contact force of {}",
-            wall.name,
-            LENGTH.text(wall.displacement_peak_m, 1),
-            FORCE.text(wall.force_peak_n, 0)
-        )?;
+        let (name, force) = (&wall.name, FORCE.text(wall.force_peak_n, 0));
+        match wall.displacement_peak_m > 0.0 {
+            true => {
+                let moved = LENGTH.text(wall.displacement_peak_m, 1);
+                writeln!(
+                    text,
+                    "\"{name}\" moves by up to {moved} under a contact force of {force}"
+                )?;
+            }
+            false => writeln!(text, "\"{name}\": contact force up to {force}")?,
+        }
     }
     Ok(())
 }

@@ -314,7 +314,7 @@ pub fn page(
     let mut text = format!(
         "# Accuracy and speed of batches\n\n\
          `jostle city` and `jostle classes` compute many rows of yielding shear buildings at once, in single precision. This page shows\n\
-         how much their peaks differ from those of the standard solvers at a tolerance of 1e-4, and how fast they are. It is written by\n\
+         how much the computed peaks differ from those of the standard solvers at a tolerance of 1e-4, and how many pairs are computed per second. It is written by\n\
          `cargo run --release -p jostle-validation -- --batches {pairs} {rows} --seed {seed} --page`. Every run of a city or of classes\n\
          also repeats a sample of its rows with the standard solvers and reports the differences.\n\n\
          ## Accuracy\n\n\
@@ -350,7 +350,7 @@ pub fn page(
         );
     }
     text += "\n## Speed\n\n\
-             Number of pairs that one thread computes per second: a four-storey beside a six-storey building (C1M, moderate code) under the whole\n\
+             Number of pairs that one thread computes per second: a four-storey building next to a six-storey building (C1M, moderate design level) under the whole\n\
              El Centro record (31 s). Other programs may have been running on the same machine.\n\n\
              | rule | tolerance | pairs per second |\n|---|---|---|\n";
     for (name, tolerance, rate) in speed {
@@ -362,8 +362,8 @@ pub fn page(
          In a synthetic city of {} buildings with {} draws, one thread computes {rate:.0} draws of a pair per second. This includes all work of\n\
          `jostle city run`: runs without contact, runs with contact where the gap closes, the sample with the standard solvers, and the tables\n\
          ({bytes:.0} bytes per draw). The following table is extrapolated from these two numbers, for {PAIRS_A_BUILDING} pairs per building (outlines of San\n\
-         Francisco within 0.5 m) and {MOTIONS:.0} motions with one draw each. No run of this size was made. `--shard` or Dask workers compute the\n\
-         parts, which are independent of each other.\n\n\
+         Francisco within 0.5 m) and {MOTIONS:.0} motions with one draw each. No run of this size was made. The parts can be computed with `--shard` or by Dask workers, because they are\n\
+         independent.\n\n\
          | buildings | draws of a pair | core hours | tables |\n|---|---|---|---|\n",
         CITY.0, CITY.1
     );

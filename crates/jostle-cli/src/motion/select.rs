@@ -57,8 +57,8 @@ fn verdict(check: &SelectionCheck) -> Result<(), Failure> {
     }
     let unmet = check.rules.iter().filter(|rule| !rule.met).count();
     Err(Failure::Analysis(format!(
-        "the set does not meet {}: {unmet} of {} rules",
-        check.code.clause(),
-        check.rules.len()
+        "the set fails {unmet} of {} rules of {}",
+        check.rules.len(),
+        check.code.clause()
     )))
 }

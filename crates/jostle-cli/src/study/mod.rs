@@ -346,8 +346,9 @@ fn outcome(study: &Study, done: &Done, out: &Path, wall: f64) -> String {
             .filter(|part| !jostle_study::dataset::part_path(out, study.part(*part).start).exists())
             .count();
         lines.push(format!(
-            "{} of other shards are still missing",
-            counted_grouped(missing as u64, "part")
+            "{} of other shards {} still missing",
+            counted_grouped(missing as u64, "part"),
+            if missing == 1 { "is" } else { "are" }
         ));
     }
     lines.push(format!(

@@ -193,13 +193,16 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             }
             _ => Vec::new(),
         };
-        if frames.iter().any(|frame| !frame.walls.is_empty()) {
+        let walls_in_space = in_space.is_some_and(|space| !space.walls.is_empty());
+        if walls_in_space || frames.iter().any(|frame| !frame.walls.is_empty()) {
             refuse(
                 format!("building[{index}].wall"),
                 "stands on rigid arms that turn with it, which are not exported yet; make it a column with its EI, EA and GA to compare frames without arms".into(),
             );
         }
-        let ends_in_space = in_space.is_some_and(|space| !space.rigid_zones.is_empty());
+        // Arms of walls are rigid zones as well.
+        let ends_in_space =
+            !walls_in_space && in_space.is_some_and(|space| !space.rigid_zones.is_empty());
         if ends_in_space || frames.iter().any(|frame| !frame.rigid_zones.is_empty()) {
             refuse(
                 format!("building[{index}].rigid_ends"),

@@ -55,7 +55,7 @@ impl Script<'_> {
         self.write_grounds(out)?;
         writeln!(
             out,
-            "\n# Steps at its best, in free vibration and around contact [s]."
+            "\n# Efficient steps, in free vibration and around contact [s]."
         )?;
         writeln!(out, "FREE_STEP = {free:?}")?;
         writeln!(out, "PARTS_IN_CONTACT = {PARTS_IN_CONTACT}")

@@ -22,11 +22,11 @@ impl Script<'_> {
         )?;
         writeln!(
             out,
-            "#   python FILE                     at its best: long linear steps in free vibration, short ones near contact"
+            "#   python FILE                     efficient: long linear steps in free vibration, short ones near contact"
         )?;
         writeln!(
             out,
-            "#   python FILE --uniform 1e-4      the usual way: one step size throughout"
+            "#   python FILE --uniform 1e-4      one step size throughout"
         )?;
         writeln!(
             out,

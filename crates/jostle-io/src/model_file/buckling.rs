@@ -79,7 +79,7 @@ pub(super) fn read(
         Some(field) => reader.positive(&field, dimension).map(Some),
         None => Some(None),
     };
-    let strength = number("yield_strength", Dimension::Modulus);
+    let strength = number("yield_strength", Dimension::Stress);
     let yielding = number("yield", Dimension::Force);
     let slenderness = number("slenderness", Dimension::Dimensionless);
     let lever_arm = number("lever_arm", Dimension::Length);

@@ -267,7 +267,7 @@ pub(super) fn check_doubles(reader: &mut Reader<'_>, fields: &[Field<'_>], model
         let line = reader.line(&fields[first].node.span);
         reader.warn(
             &fields[index],
-            &format!("joins floors that the [[gap]] of line {line} joins as well: where both close, both push"),
+            &format!("joins floors that the [[gap]] of line {line} joins as well: when both are closed, their forces add"),
         );
     }
 }

@@ -415,7 +415,7 @@ pub(super) fn read_moments(
             let stated = reader.get(view, key);
             let beside = beside.and_then(|beside| reader.get(beside, key));
             if let Some(field) = stated.or(beside) {
-                *reader.bad(&field, "has no place in a bilinear curve") =
+                *reader.bad(&field, "does not apply to a bilinear curve") =
                     Some(format!("remove {key}, or set rule = \"normal\""));
             }
         }
@@ -716,7 +716,7 @@ pub(super) fn read_spring(
         let needless = elastic || (bilinear && key.contains("cracking"));
         match reader.get(&view, key) {
             Some(field) if bilinear && key.contains("cracking") => {
-                *reader.bad(&field, "has no place in a bilinear curve") =
+                *reader.bad(&field, "does not apply to a bilinear curve") =
                     Some(format!("remove {key}, or set rule = \"normal\""));
                 None
             }
@@ -852,7 +852,7 @@ fn storey_springs(
             return needless.then(|| vec![f64::NAN; storeys]);
         };
         if bilinear && key.contains("cracking") {
-            *reader.bad(&field, "has no place in a bilinear curve") =
+            *reader.bad(&field, "does not apply to a bilinear curve") =
                 Some(format!("remove {key}, or set rule = \"normal\""));
         }
         per_storey(reader, &field, dimension, Some(storeys))

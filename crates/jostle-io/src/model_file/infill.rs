@@ -364,7 +364,7 @@ fn strength_of_masonry(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Str
         }
     };
     let vertical_stress = match reader.get(&view, "vertical_stress") {
-        Some(field) => match reader.quantity(&field, Dimension::Modulus)? {
+        Some(field) => match reader.quantity(&field, Dimension::Stress)? {
             stress if stress >= 0.0 => stress,
             _ => {
                 reader.bad(&field, "must not be negative");
@@ -374,7 +374,7 @@ fn strength_of_masonry(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Str
         None => 0.0,
     };
     let mut needed = |key, example: &str| match reader.get(&view, key) {
-        Some(field) => reader.positive(&field, Dimension::Modulus),
+        Some(field) => reader.positive(&field, Dimension::Stress),
         None => {
             reader.missing(&view, key, format!("add {key} = {example}"));
             None

@@ -58,7 +58,7 @@ pub(super) fn with_hinge(
         _ => FrameHinges::default(),
     };
     if !all.beams.is_empty() {
-        *reader.bad(&field, "stands where beams have hinges already") =
+        *reader.bad(&field, "cannot be combined with hinges of beams") =
             Some("keep either joint.hinge or the hinges of beams".into());
         return None;
     }
@@ -98,7 +98,7 @@ pub(super) fn read_in_space(reader: &mut Reader<'_>, view: &View<'_>, frame: &mu
             SpacePlace::BeamY { .. } => springs[1],
         };
         if spring.is_some() && member.may_yield() {
-            *reader.bad(&field, "stands where beams have hinges already") =
+            *reader.bad(&field, "cannot be combined with hinges of beams") =
                 Some("keep either joint or the hinges of beams".into());
             return;
         }

@@ -88,7 +88,7 @@ fn strength(
                 *reader.bad(&field, "has no meaning beside strength") = Some("leave it out".into());
             }
             reader
-                .positive(&stated, Dimension::Modulus)
+                .positive(&stated, Dimension::Stress)
                 .map(Strength::Stated)
         }
         (None, None) => {
@@ -98,7 +98,7 @@ fn strength(
         (Some(rule), None) => {
             let word = reader.choice(&rule, ARCHINGS, &[]);
             let compression = match compression {
-                Some(field) => reader.positive(&field, Dimension::Modulus),
+                Some(field) => reader.positive(&field, Dimension::Stress),
                 None => {
                     // That of the strut holds here as well.
                     let table = reader.get(infill, "strength");
@@ -107,7 +107,7 @@ fn strength(
                     let stated = strength_view
                         .and_then(|strength_view| reader.get(&strength_view, "compression"));
                     let known = stated.and_then(|field| {
-                        reader.quietly(|reader| reader.positive(&field, Dimension::Modulus))
+                        reader.quietly(|reader| reader.positive(&field, Dimension::Stress))
                     });
                     if known.is_none() {
                         reader.missing(view, "compression", "add compression = \"3 MPa\", the strength of the masonry along its height");

@@ -10,6 +10,7 @@ use jostle::{
 
 use super::building::{has_length, per_storey, storeys};
 use super::hinges;
+use super::places::range;
 use super::plan_frames;
 use super::reinforced::ReinforcedInPlan;
 use super::shear::DEFAULT_STOREY_HEIGHT;
@@ -460,10 +461,7 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
                 None
             }
         };
-        let range = match reader.get(&view, "storeys") {
-            Some(field) => storey_range(reader, &field, count),
-            None => Some([1, count]),
-        };
+        let range = range(reader, &view, "storeys", count);
         if let (Some(at), Some([x, y, _]), Some([from, to])) = (at, spring, range) {
             let x = x.unwrap_or(0.0);
             let whole = [x, y.unwrap_or(x)];
@@ -517,27 +515,6 @@ fn yielding_of_element(
         )
     });
     read.unwrap_or_default()
-}
-
-/// First and last storey.
-fn storey_range(reader: &mut Reader<'_>, field: &Field<'_>, count: usize) -> Option<[usize; 2]> {
-    let entries = field.entries().unwrap_or_default();
-    let [from, to] = &entries[..] else {
-        reader.bad(
-            field,
-            "expected the first and the last storey, such as [1, 5]",
-        );
-        return None;
-    };
-    let (from, to) = (reader.count(from)?, reader.count(to)?);
-    if from == 0 || to < from || to > count {
-        reader.bad(
-            field,
-            format!("must be ascending, within 1 to {count}, found [{from}, {to}]"),
-        );
-        return None;
-    }
-    Some([from, to])
 }
 
 /// Moves buildings to their places: those with `at` there, the others in a row along x, each as far from the one before as

@@ -374,7 +374,7 @@ pub(super) fn own_mass(
         reader.missing(
             view,
             "mass",
-            "a column given by EI needs its self mass: add mass = \"1500 kg/m\" (0 is possible), or EA here and elastic_modulus in the building",
+            "what is given by EI needs its mass: add mass = \"1500 kg/m\" (0 is possible), or EA here and elastic_modulus in the building",
         );
     }
     None

@@ -95,7 +95,7 @@ fn read_uplift(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Uplift
     let sway = or_rigid(reader, view, "sway_stiffness", Dimension::Stiffness);
     let damping = ["vertical_damping", "sway_damping"]
         .map(|key| number(reader, key, Dimension::Damping).unwrap_or(0.0));
-    let strength = number(reader, "bearing_strength", Dimension::Modulus);
+    let strength = number(reader, "bearing_strength", Dimension::Stress);
     let hardening = number(reader, "bearing_hardening", Dimension::Dimensionless);
     Some(Some(Uplift {
         springs,
@@ -120,9 +120,16 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Soil> {
         Some(field) => coupling(reader, &field),
         None => Some(SoilCoupling::None),
     };
-    let keys = ["shear_wave_velocity", "density", "poisson_ratio"];
-    let matrices = matches!(coupling, Some(SoilCoupling::Given { .. }));
-    if matrices && !keys.iter().any(|key| view.has(key)) {
+    // Matrices need no half-space; what describes one has no effect beside them.
+    if matches!(coupling, Some(SoilCoupling::Given { .. })) {
+        for key in ["shear_wave_velocity", "density", "poisson_ratio"] {
+            if let Some(field) = reader.get(&view, key) {
+                *reader.bad(&field, "has no effect where coupling gives matrices") = Some(
+                    "leave out shear_wave_velocity, density and poisson_ratio, or coupling".into(),
+                );
+                break;
+            }
+        }
         if let Some(field) = reader.get(&view, "damping") {
             *reader.bad(&field, "has no effect where coupling gives matrices") =
                 Some("put it into the matrix damping; leave it out here".into());
@@ -141,16 +148,6 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Soil> {
     let density = reader.needed_quantity(&view, "density", Dimension::Density, "\"1800 kg/m3\"");
     let ratio = reader.needed_quantity(&view, "poisson_ratio", Dimension::Dimensionless, "0.33");
     let damping = reader.quantity_at(&view, "damping", Dimension::Dimensionless);
-    if matrices {
-        for key in keys {
-            if let Some(field) = reader.get(&view, key) {
-                *reader.bad(&field, "has no effect where coupling gives matrices") = Some(
-                    "leave out shear_wave_velocity, density and poisson_ratio, or coupling".into(),
-                );
-                return None;
-            }
-        }
-    }
     Some(Soil {
         half_space: Some(HalfSpace {
             shear_wave_velocity: velocity?,

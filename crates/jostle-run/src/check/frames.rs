@@ -19,7 +19,7 @@ pub(super) fn axial_of_columns(frame: &Frame, known: Option<[bool; 2]>) -> Strin
         false => "columns axially rigid",
     };
     let limit = format!(
-        "{} times as high as wide or {} storeys",
+        "{} times as high as wide and {} storeys",
         Frame::SLENDER,
         Frame::TALL
     );

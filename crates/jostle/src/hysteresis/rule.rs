@@ -206,7 +206,8 @@ impl Hysteresis {
             HysteresisRule::Bilinear if !backbone.is_bilinear() => refuse(
                 Quantity::Cracking,
                 None,
-                "has no place in a bilinear curve; leave it out, or use the rule normal".to_owned(),
+                "does not apply to a bilinear curve; leave it out, or use the rule normal"
+                    .to_owned(),
             ),
             HysteresisRule::Pinched(pinching) => {
                 if let Some(problem) = pinching.fault() {

@@ -235,7 +235,7 @@ impl Model {
             .filter(|gap| gap.between == [Some(left), Some(left + 1)] && !gap.widths.is_empty());
         let [a, b] = pair.map(|building| &building.name[..]);
         let width = gaps.map(Gap::width).reduce(f64::min).ok_or_else(|| {
-            format!("how far apart the foundations of \"{a}\" and \"{b}\" are is not known: add a [[gap]] between them")
+            format!("the distance between the foundations of \"{a}\" and \"{b}\" is unknown: add a [[gap]] between them")
         })?;
         let mut distance = width;
         for building in pair {

@@ -146,7 +146,7 @@ impl std::fmt::Display for PushEnd {
         match self {
             Self::Target => formatter.write_str("the wanted drift was reached"),
             Self::NoResistance => formatter.write_str(
-                "P-Delta has used up the resistance: from here on the building falls by its own weight",
+                "P-Delta equals the remaining resistance: beyond this point the building collapses under its own weight",
             ),
             Self::Mechanism { storey } => write!(
                 formatter,

@@ -104,7 +104,7 @@ impl FloorResponse {
         Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "peak moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
         Quantity::<Self>::real("residual_drift", Unit::NONE, "drift ratio of the storey at the end, including remaining vibration; positive to the right", |f| f.residual_drift).in_study().compared(),
         Quantity::<Self>::optional("stability_coefficient", Unit::NONE, "stability coefficient θ = P d_r/(V h) of the storey: weight above × peak drift ratio ÷ peak shear (EN 1998-1, 4.4.2.2); absent without shear", |f| f.stability_coefficient),
-        Quantity::<Self>::optional("vertical_displacement_peak_m", Unit::M, "peak vertical displacement of any mass of the floor relative to the ground; only under vertical shaking", |f| f.vertical_displacement_peak_m).not_in_summary().in_study(),
+        Quantity::<Self>::optional("vertical_displacement_peak_m", Unit::M, "peak vertical displacement of any mass of the floor relative to the ground; only under vertical shaking", |f| f.vertical_displacement_peak_m).in_study(),
     ];
 }
 

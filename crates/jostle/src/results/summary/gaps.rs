@@ -51,7 +51,7 @@ impl GapSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("width_m", Unit::M, "width at rest, the smallest of its contacts", |g| g.width_m).in_study(),
         Quantity::<Self>::real("clearance_m", Unit::M, "smallest distance during the run; negative values are indentation", |g| g.clearance_m),
-        Quantity::<Self>::optional("free_restitution", Unit::NONE, "restitution of free masses under the contact law; absent if it depends on the impact speed", |g| g.free_restitution),
+        Quantity::<Self>::optional("free_restitution", Unit::NONE, "restitution of free masses under the contact law; null if it depends on the impact speed", |g| g.free_restitution),
         Quantity::<Self>::whole("impact_count", "impacts of all its contacts", |g| g.impact_count).in_study(),
         Quantity::<Self>::real("minimum_separation_s", Unit::S, "impacts of one contact with less time between them count as one", |g| g.minimum_separation_s),
         Quantity::<Self>::whole("pounding_count", "intervals in which at least one contact is in impact", |g| g.pounding_count).in_study(),

@@ -9,10 +9,7 @@ impl Table<'_> {
         let mut sides = self.neighbours.sides.iter().flatten();
         let is_elastic = sides.all(|side| !side.yields);
         if !is_elastic || self.inputs.motion == MotionLevel::Reduced {
-            return self.leave_out(
-                "UBC-97",
-                "displacements of elastic buildings under a motion that is not reduced",
-            );
+            return self.leave_out("UBC-97", "elastic buildings under the full motion");
         }
         if self.neighbours.places.is_empty() {
             return;
