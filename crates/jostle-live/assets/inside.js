@@ -1,6 +1,7 @@
 // Messages to the engine inside this page: WebAssembly in a worker.
 
-const inside = JSON.parse(byId("inside").textContent);
+/** The model and its files. */
+const carried = JSON.parse(byId("inside").textContent);
 let worker = null;
 let compiled = null;
 /** Runs and reports that the worker has not finished. */
@@ -32,7 +33,7 @@ function restart() {
   const address = URL.createObjectURL(source);
   worker = new Worker(address);
   worker.onmessage = ({ data }) => take(data);
-  worker.postMessage({ compiled, inside, greet: !greeted });
+  worker.postMessage({ compiled, inside: carried, greet: !greeted });
 }
 
 function take({ data, share, busy: searching, done, failed, stopped, unable }) {

@@ -81,13 +81,18 @@ pub fn widget_page(name: &str) -> String {
     })
 }
 
+/// All scripts of a page, one module.
+fn script(viewer: &Viewer, link: &str) -> String {
+    [&viewer.script, "\n", &SCRIPTS.concat(), link, START].concat()
+}
+
 fn document(around: &Around) -> String {
     let viewer = Viewer::new();
     let name = std::path::Path::new(around.name)
         .file_name()
         .unwrap_or_default()
         .to_string_lossy();
-    let script = [&viewer.script, "\n", &SCRIPTS.concat(), around.link, START].concat();
+    let script = script(&viewer, around.link);
     let markup = html! {
         (DOCTYPE)
         html lang=(message::language_code()) {
@@ -183,6 +188,38 @@ fn curve() -> Markup {
             p #curve-note.quiet { (message::drag_the_line_or_use()) }
             figure.chart { figcaption #curve-caption {} div #curve-picture {} }
             ul #curve-marks.curve-marks {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// A browser refuses the whole script of a page that declares a name twice.
+    #[test]
+    fn scripts_of_a_page_declare_every_name_once() {
+        let viewer = Viewer::new();
+        for link in [SOCKET, WIDGET, INSIDE] {
+            let script = script(&viewer, link);
+            let mut known = BTreeSet::new();
+            for line in script.lines() {
+                let line = line.strip_prefix("async ").unwrap_or(line);
+                let Some((word, rest)) = line.split_once(' ') else {
+                    continue;
+                };
+                if !["const", "let", "class", "function"].contains(&word) {
+                    continue;
+                }
+                // Several may be taken out of an object or a list.
+                let names = rest.split(['=', '(']).next().unwrap_or(rest);
+                let part = |c: char| !(c.is_alphanumeric() || c == '_' || c == '$');
+                let name = names.split(part).find(|name| !name.is_empty());
+                assert!(known.insert(name), "{line}");
+            }
+            assert!(known.len() > 100);
         }
     }
 }
