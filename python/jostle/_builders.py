@@ -420,7 +420,8 @@ class SpaceFrame(Part):
             with the lines at which their bays begin; with ``"hinge"`` they yield or buckle.
         infill: masonry panels in the bays, likewise: ``[{"along": "y", "x": 1, "modulus": "4 GPa", "thickness": "200 mm",
             "width": "mainstone"}]``.
-        wall: walls, each in place of columns: ``[{"along": "x", "x": 2, "y": 1, "length": "3 m", "thickness": "250 mm"}]``.
+        wall: walls, each in place of columns: ``[{"along": "x", "x": 2, "y": 1, "length": "3 m", "thickness": "250 mm"}]``. Bars make
+            feet of fibres, as in plane frames: ``{"steel": "HRB400", "bars": "24 d16", "hinge": {"rule": "fibre", "length": "1 m"}}``.
         rotation_limit: rotations of hinges at which members reach levels of performance:
             ``[{"of": "columns", "storeys": 1, "limits": {"io": "5 mrad", "cp": "20 mrad"}}]``.
         hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:
