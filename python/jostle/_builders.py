@@ -439,7 +439,8 @@ class SpaceFrame(Part):
         infill: masonry panels in the bays, likewise: ``[{"along": "y", "x": 1, "modulus": "4 GPa", "thickness": "200 mm",
             "width": "mainstone"}]``.
         wall: walls, each of which replaces the columns at a grid intersection: ``[{"along": "x", "x": 2, "y": 1, "length": "3
-            m", "thickness": "250 mm"}]``.
+            m", "thickness": "250 mm"}]``. With bars, the foot of a wall can consist of fibres, as in plane frames:
+            ``{"steel": "HRB400", "bars": "24 d16", "hinge": {"rule": "fibre", "length": "1 m"}}``.
         rotation_limit: hinge rotations at which members reach performance levels:
             ``[{"of": "columns", "storeys": 1, "limits": {"io": "5 mrad", "cp": "20 mrad"}}]``.
         hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:

@@ -397,7 +397,11 @@ fn model(kind: usize, feature: &Feature) -> String {
                 format!("{WALL_OF_A_GRID}hinge = {{ yield = \"2 MN.m\", post_yield = 0.02 }}\n")
             }
             (true, "space-frame") if feature.name.starts_with("walls whose feet") => {
-                format!("{WALL_OF_A_GRID}hinge = {{ rule = \"fibre\", length = 0.5 }}\n")
+                let own = feature
+                    .tables
+                    .split_once("concrete")
+                    .map_or("", |parts| parts.1);
+                format!("{WALL_OF_A_GRID}concrete{own}")
             }
             (true, "space-frame") if added.contains("from = ") => {
                 added.replace("0.1", "0.1.1").replace("2.2", "2.2.2")

@@ -60,6 +60,8 @@ pub(crate) enum Section {
     FrameWall,
     /// Yielding at the foot of a wall.
     WallHinge,
+    /// Where a wall yields, and its fibres.
+    WallEnds,
     /// Bars of a wall with edges.
     WallBars,
     /// Beams between walls.
@@ -70,6 +72,8 @@ pub(crate) enum Section {
     SpaceFrame,
     /// Walls of it.
     SpaceWall,
+    /// Fibres at the foot of such a wall.
+    SpaceWallHinge,
     /// Columns of it at some places.
     SpaceColumn,
     /// Beams of it at some places.
@@ -464,6 +468,8 @@ pub(crate) const LIMITED_MEMBERS: &[&str] = &["columns", "beams"];
 pub(crate) const ROTATION_MEASURES: &[&str] = &["plastic", "chord"];
 /// Where walls yield.
 pub(crate) const WALL_HINGES: &[&str] = &["foot", "all"];
+/// Rules of hinges of walls of space frames with a rule of their own.
+pub(crate) const WALL_RULES_IN_SPACE: &[&str] = &["fibre"];
 /// Columns whose axial failure comes before shear failure.
 pub(crate) const AXIAL_FIRST: &[&str] = &["refuse", "axial-limit"];
 /// Rules of hinges of frames: fibres are several springs.
@@ -848,10 +854,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameWall, "bars", TextOrTable(S::WallBars), "Vertical reinforcement of a wall of fibres (rule fibre of its hinge): `{ edges = \"8 d20\", edge_length = \"500 mm\", web = \"16 d10\" }`, or bars around the whole section such as \"24 d16\"; diameters in mm. Top is the left end of the wall."),
     default(S::FrameWall, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars.").usual("a concrete cover", 0.005, 0.2).possible(0.0005, 1.0),
     optional(S::FrameWall, "ties", Text, "Ties that confine the edges, or the whole section if it has no edges, such as \"d10 @ 100 mm\"."),
-    optional(S::FrameWall, "hinge", Kind::Table(S::WallHinge), "Yielding at its base, or above the given floors; without this table the wall is elastic. Hinges of columns do not apply to walls."),
+    optional(S::FrameWall, "hinge", Kind::TableOf(&[S::WallHinge, S::WallEnds]), "Yielding at its base, or above the given floors; without this table the wall is elastic. Hinges of columns do not apply to walls."),
     optional(S::FrameWall, "shear_hinge", Kind::TableOf(&[S::LinkHinge, S::Sliding]), "Shear yielding of its lowest storey."),
-    default(S::WallHinge, "floors", Counts, "its foot", "Floors above which it yields, such as [0, 3], where 0 is the ground. All these hinges have the same length or stiffness."),
-    default(S::WallHinge, "ends", Choice(WALL_HINGES), "\"foot\"", "Instead of floors: \"all\" puts hinges at the foot and the head of every storey."),
+    default(S::WallEnds, "floors", Counts, "its foot", "Floors above which it yields, such as [0, 3], where 0 is the ground. All these hinges have the same length or stiffness."),
+    default(S::WallEnds, "ends", Choice(WALL_HINGES), "\"foot\"", "Instead of floors: \"all\" puts hinges at the foot and the head of every storey."),
     required(S::WallHinge, "rule", Choice(HINGE_RULES), "Unloading and reloading rule. fibre: the ends consist of concrete and steel fibres of the section with `bars`, so that the neutral axis shifts, edges lift and the strength follows the axial force."),
     default(S::WallHinge, "gamma", Quantity(D::Dimensionless), "0.4", "takeda: exponent of the unloading stiffness.").usual("an exponent", 1e-3, 1.0),
     optional(S::WallHinge, "pinching", Kind::Table(S::Pinching), "pinched, required: point at which reloading stiffens."),
@@ -864,13 +870,13 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::WallHinge, "stiffness", Quantity(D::RotationalStiffness), "Initial stiffness, in series with the wall.").usual("a rotational stiffness", 1e6, 1e15),
     optional(S::WallHinge, "initial", Quantity(D::Dimensionless), "Initial stiffness in units of EI over the storey height; 100 with length.").usual("a stiffness ratio", 1.0, 1e6),
     optional(S::WallHinge, "length", WordOr("paulay-priestley", D::Length), "Length of the hinge. The ratios are then those of flexural rigidity over that length, and include the elastic bending of the wall. `paulay-priestley`: 0.2 of the length of the wall plus 0.044 of two thirds of its height. Required with rule = \"fibre\": length over which strains are constant.").usual("a hinge length", 0.05, 10.0),
-    default(S::WallHinge, "fibres", Count, "40", "fibre: concrete layers over the length of the wall, 2 to 400. Edges and web have at least two each."),
-    default(S::WallHinge, "peak_strain", Quantity(D::Dimensionless), "that of the concrete, confined if there are ties", "fibre: strain of concrete at its peak strength.").usual("a strain", 1e-3, 2e-2),
-    default(S::WallHinge, "residual", Quantity(D::Dimensionless), "0.2", "fibre: ratio of residual to peak strength of crushed concrete.").usual("a ratio", 1e-3, 1.0),
-    default(S::WallHinge, "ultimate_strain", Quantity(D::Dimensionless), "from the straight line through its stress at the crushing strain", "fibre: strain at which concrete reaches its residual strength.").usual("a strain", 2e-3, 0.3),
-    default(S::WallHinge, "hardening", Quantity(D::Dimensionless), "that of the steel", "fibre: ratio of post-yield to elastic modulus of the bars.").usual("a stiffness ratio", 1e-4, 0.2),
-    default(S::WallHinge, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "fibre: hysteresis of the bars: bilinear, or `\"menegotto-pinto\"` with smooth curves; a table gives its parameters."),
-    optional(S::WallHinge, "limits", Kind::Table(S::FibreLimits), "fibre: strain limits to check, instead of those that follow from the section."),
+    default(S::WallEnds, "fibres", Kind::OneOrTwo, "40", "fibre: concrete layers over the length of the wall, 2 to 400. Edges and web have at least two each. In a space frame a second number, 4 by default, divides the thickness, and both are at most 100."),
+    default(S::WallEnds, "peak_strain", Quantity(D::Dimensionless), "that of the concrete, confined if there are ties", "fibre: strain of concrete at its peak strength.").usual("a strain", 1e-3, 2e-2),
+    default(S::WallEnds, "residual", Quantity(D::Dimensionless), "0.2", "fibre: ratio of residual to peak strength of crushed concrete.").usual("a ratio", 1e-3, 1.0),
+    default(S::WallEnds, "ultimate_strain", Quantity(D::Dimensionless), "from the straight line through its stress at the crushing strain", "fibre: strain at which concrete reaches its residual strength.").usual("a strain", 2e-3, 0.3),
+    default(S::WallEnds, "hardening", Quantity(D::Dimensionless), "that of the steel", "fibre: ratio of post-yield to elastic modulus of the bars.").usual("a stiffness ratio", 1e-4, 0.2),
+    default(S::WallEnds, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "fibre: hysteresis of the bars: bilinear, or `\"menegotto-pinto\"` with smooth curves; a table gives its parameters."),
+    optional(S::WallEnds, "limits", Kind::Table(S::FibreLimits), "fibre: strain limits to check, instead of those that follow from the section."),
     required(S::WallBars, "edges", Text, "Bars of each edge, such as \"8 d20\", around it; diameters in mm."),
     required(S::WallBars, "edge_length", Quantity(D::Length), "Length of each edge along the wall.").usual("the length of an edge", 0.1, 5.0),
     optional(S::WallBars, "web", Text, "Bars of the web between the edges, such as \"16 d10\": half of them at either face, evenly spaced."),
@@ -918,8 +924,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceWall, "y", Kind::FromTo, "all", "Line of lines_y, likewise."),
     default(S::SpaceWall, "storeys", Kind::FromTo, "all", "Storey, likewise."),
     optional(S::SpaceWall, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity, if it differs from that of the building.").usual("a modulus of elasticity", 1e9, 1e12).possible(1e6, 1e14),
-    optional(S::SpaceWall, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus.").usual("a concrete strength", 1e6, 2e8),
-    optional(S::SpaceWall, "hinge", Kind::Table(S::ColumnHinge), "Moments of its hinges at foot and head; without this table the wall is elastic, even if hinges.column is given."),
+    optional(S::SpaceWall, "concrete", Kind::ConcreteOr(CONCRETES), "Concrete instead of elastic_modulus. With bars it is the concrete of the section, or its prismatic strength, and elastic_modulus may also be given.").usual("a concrete strength", 1e6, 2e8),
+    optional(S::SpaceWall, "steel", GradeOr(STEELS), "Steel of the bars, as for a wall of a plane frame; needed with bars.").usual("a yield strength", 5e7, 2e9),
+    default(S::SpaceWall, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
+    optional(S::SpaceWall, "bars", TextOrTable(S::WallBars), "Vertical reinforcement of a wall of fibres, as for a wall of a plane frame: `{ edges = \"8 d20\", edge_length = \"500 mm\", web = \"16 d10\" }`, or bars around the whole section such as \"24 d16\". Top is the end at smaller x, or at smaller y of a wall along y."),
+    default(S::SpaceWall, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars.").usual("a concrete cover", 0.005, 0.2).possible(0.0005, 1.0),
+    optional(S::SpaceWall, "ties", Text, "Ties that confine the edges, or the whole section if it has no edges, such as \"d10 @ 100 mm\"."),
+    optional(S::SpaceWall, "hinge", Kind::TableOf(&[S::ColumnHinge, S::SpaceWallHinge, S::WallEnds]), "Moments of its hinges at the foot and the head of every storey, with the rule of hinges; or, with rule = \"fibre\", fibre sections. Without this table the wall is elastic, even if hinges.column is given."),
+    optional(S::SpaceWallHinge, "rule", Choice(WALL_RULES_IN_SPACE), "fibre: the foot consists of concrete and steel fibres of the section with `bars`, which bends in and across its plane. Without this key the hinges have moments."),
+    optional(S::SpaceWallHinge, "length", WordOr("paulay-priestley", D::Length), "fibre, required: length over which strains are constant. `paulay-priestley`: 0.2 of the length of the wall plus 0.044 of two thirds of its height.").usual("a hinge length", 0.05, 10.0),
     optional(S::SpaceColumn, "size", Quantities(D::Length), "Widths along x and across; needed unless profile or omit is given.").usual("a section size", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::SpaceColumn, "profile", TextOrTable(S::Profile), "Steel profile instead of size, as for columns of plane frames; stiffness_factor and torsion_factor do not apply to it."),
     optional(S::SpaceColumn, "axis", Choice(AXES), "Axis of the profile about which the column bends along x; `strong` if not given."),

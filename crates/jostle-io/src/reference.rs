@@ -106,6 +106,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::WallHinge, "`hinge` of a wall", ""),
     (
+        Section::WallEnds,
+        "`hinge` of a wall, places and fibres",
+        "",
+    ),
+    (
         Section::WallBars,
         "`bars` of a wall",
         "Both edges are alike. See [Fibres](how-to/walls.md#fibres).",
@@ -129,6 +134,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         Section::SpaceWall,
         "`[[building.wall]]` of a space frame",
         "A wide column with a rigid cross-section: beams along it span between faces and rotate with it. Its forces are reported like those of a column. See [Walls and coupling beams](how-to/walls.md).",
+    ),
+    (
+        Section::SpaceWallHinge,
+        "`hinge` of a wall of a space frame, with fibres",
+        "",
     ),
     (Section::SpaceColumn, "`column` of a space frame", ""),
     (

@@ -176,6 +176,14 @@ impl FibreLaws {
         }
     }
 
+    /// Parts over the width where two are stated, or as many as usual.
+    pub(super) fn across(&self, usual: usize) -> usize {
+        match self.parts {
+            Some(Parts::Each([_, across])) => across,
+            Some(Parts::Greater(_)) | None => usual,
+        }
+    }
+
     /// Strains at which materials fail that replace those of a section.
     pub(super) fn limits(&self) -> &BTreeMap<FibreLimit, f64> {
         &self.limits

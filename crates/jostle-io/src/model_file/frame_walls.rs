@@ -10,12 +10,15 @@ use super::brace::tables;
 use super::hinges::read_spring;
 use super::places::range;
 use super::section::{Material, STAND_IN, Sides, own_mass, rectangle, rigidities};
-use super::wall_fibres;
+use super::wall_fibres::{self, OfWall};
 use crate::grade::ConcreteGrade;
 use crate::keys::{AXIAL, Section, WALL_HINGES, WALL_STIFFNESS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::tree::{Node, Value};
+
+/// Keys of a hinge of a wall.
+pub(super) const HINGE: &[Section] = &[Section::WallHinge, Section::WallEnds];
 
 /// Walls stand at a column line that is no farther from their place \[m\].
 const SAME_LINE: f64 = 1e-3;
@@ -164,21 +167,17 @@ fn read_wall(
     let hinge = reader.get(&view, "hinge");
     let (hinges, fibres) = match hinge.filter(|hinge| wall_fibres::asked(reader, hinge)) {
         Some(field) => {
-            let size = [thickness.and_then(|(_, thickness)| thickness), length];
-            let concrete = bays.concrete;
-            let fibres = wall_fibres::read(
-                reader,
-                &view,
-                &field,
-                size,
-                &foot,
-                (first, heights),
-                concrete,
-            );
+            let of_wall = OfWall {
+                size: [thickness.and_then(|(_, thickness)| thickness), length],
+                storeys: (first, heights),
+                concrete: bays.concrete,
+                in_space: false,
+            };
+            let fibres = wall_fibres::read(reader, &view, &field, of_wall);
             (Some(Vec::new()), fibres)
         }
         None => {
-            wall_fibres::refuse(reader, &view);
+            wall_fibres::refuse(reader, &view, false);
             let hinges = reader.get(&view, "hinge");
             let hinges = hinges.map(|field| read_hinges(reader, &field, &foot, first, heights));
             (hinges.unwrap_or(Some(Vec::new())), Some(BTreeMap::new()))
@@ -320,16 +319,14 @@ fn reduced(section: CrossSection, [bending, shear]: [f64; 2]) -> CrossSection {
 /// A wall that yields: EI, height of the storey of the hinge, its height and its length \[N·m², m\].
 pub(super) struct Foot {
     rigidity: f64,
-    pub(super) storey: f64,
+    storey: f64,
     height: f64,
     length: f64,
 }
 
-impl Foot {
-    /// L_p = 0.2 l_w + 0.044 h_e (Paulay and Priestley 1992) \[m\].
-    pub(super) fn hinge_length(&self) -> f64 {
-        0.2 * self.length + 0.044 * EFFECTIVE_HEIGHT * self.height
-    }
+/// L_p = 0.2 l_w + 0.044 h_e of a wall by its length and its height (Paulay and Priestley 1992) \[m\].
+pub(super) fn hinge_length(length: f64, height: f64) -> f64 {
+    0.2 * length + 0.044 * EFFECTIVE_HEIGHT * height
 }
 
 /// Floors above which a wall yields, and whether it does so at the heads of their storeys as well. `within`: those at the feet of its
@@ -383,7 +380,7 @@ fn read_hinges(
     first: usize,
     heights: &[f64],
 ) -> Option<Vec<WallHinge>> {
-    let view = reader.reopen(field, &[Section::WallHinge])?;
+    let view = reader.reopen(field, HINGE)?;
     let lowest = first - 1;
     let (floors, everywhere) = read_floors(reader, &view, lowest..lowest + heights.len())?;
     for key in ["cracking", "yield"] {
@@ -456,7 +453,7 @@ fn at_level(hinges: &Node, level: usize) -> Node {
 
 /// A hinge of a wall in a storey.
 fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: &Foot) -> Option<Hysteresis> {
-    const KEYS: &[Section] = &[Section::WallHinge];
+    const KEYS: &[Section] = HINGE;
     let view = reader.reopen(field, KEYS)?;
     let usual = foot.rigidity / foot.storey;
     let initial = match (reader.get(&view, "stiffness"), reader.get(&view, "initial")) {
@@ -480,7 +477,7 @@ fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: &Foot) -> Option
         return read_spring(reader, field, KEYS, initial, Dimension::Moment);
     };
     let length = match stated.as_text() {
-        Some("paulay-priestley") => foot.hinge_length(),
+        Some("paulay-priestley") => hinge_length(foot.length, foot.height),
         _ => reader.positive(&stated, Dimension::Length)?,
     };
     if !fits(reader, &stated, length, foot.storey) {

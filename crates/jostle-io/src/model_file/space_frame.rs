@@ -210,15 +210,14 @@ pub(super) fn read(
         };
         let mut sort = read_sort(reader, view, sort, &grid, plans, material, hinges.as_ref());
         if is_column {
-            walls = space_walls::read_all(
-                reader,
-                view,
-                &grid,
+            let around = space_walls::Around {
+                grid: &grid,
                 plans,
+                heights: storey_heights,
                 material,
-                hinges.as_ref(),
-                &mut sort,
-            );
+                hinges: hinges.as_ref(),
+            };
+            walls = space_walls::read_all(reader, view, around, &mut sort);
         }
         for (place, member) in sort {
             let mut section = member.section;
@@ -245,7 +244,7 @@ pub(super) fn read(
     };
     add_slabs(&slabs, &mut frame);
     frame.rigid_zones = rigid_ends::read_in_space(reader, view, &frame);
-    space_walls::add_to(&walls, &mut frame);
+    space_walls::add_to(walls, &mut frame);
     let panels = add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
     if let Some(hinges) = hinges {
         add_hinges(
@@ -378,8 +377,9 @@ fn add_fibres(
         return;
     };
     let places = frame.members.iter().map(|member| member.place);
+    let is_wall = |place: &SpacePlace| frame.walls.iter().any(|wall| wall.has(*place));
     let columns = places.filter(|place| matches!(place, SpacePlace::Column { .. }));
-    let columns: Vec<SpacePlace> = columns.collect();
+    let columns: Vec<SpacePlace> = columns.filter(|place| !is_wall(place)).collect();
     if columns.iter().any(|place| !sections.contains_key(place)) {
         let with_bars = |place| sections.contains_key(place);
         fibre_hinges::say_without_bars(reader, &field, !columns.iter().any(with_bars));

@@ -2,15 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use jostle::{PlanAxis, PlanPoint, SpaceFrame, SpacePlace, SpaceSection, SpaceWall};
+use jostle::{
+    ColumnFibres, Fibre, PlanAxis, PlanPoint, SpaceFrame, SpacePlace, SpaceSection, SpaceWall,
+};
 
 use super::brace::tables;
 use super::frame_walls::read_factors;
 use super::places::range;
-use super::section::read_modulus;
+use super::reinforced;
+use super::section::{read_modulus, read_modulus_beside_bars};
 use super::space_frame::{Grid, Material, Member, Sort, lies_in, read_hinge};
 use super::space_hinges::SpaceHinges;
-use super::wall_fibres;
+use super::wall_fibres::{self, OfWall};
 use crate::keys::{AXES_OF_PLAN, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -20,26 +23,35 @@ pub(super) struct WallStorey {
     place: SpacePlace,
     along: PlanAxis,
     length: f64,
+    /// Its ends that are made of fibres.
+    fibres: Option<ColumnFibres>,
+}
+
+/// The building in which walls stand.
+#[derive(Clone, Copy)]
+pub(super) struct Around<'a, 'n> {
+    pub(super) grid: &'a Grid,
+    /// Of its floors.
+    pub(super) plans: &'a [Vec<PlanPoint>],
+    pub(super) heights: &'a [f64],
+    pub(super) material: Material,
+    pub(super) hinges: Option<&'a SpaceHinges<'n>>,
 }
 
 /// Puts walls in the places of `columns`, within the plan of their floor; returns them.
 pub(super) fn read_all<'n>(
     reader: &mut Reader<'_>,
     view: &View<'n>,
-    grid: &Grid,
-    plans: &[Vec<PlanPoint>],
-    material: Material,
-    hinges: Option<&SpaceHinges<'n>>,
+    around: Around<'_, 'n>,
     columns: &mut BTreeMap<SpacePlace, Member<'n>>,
 ) -> Vec<WallStorey> {
+    let (grid, plans) = (around.grid, around.plans);
     let mut walls: Vec<WallStorey> = Vec::new();
     for entry in tables(reader, view, "wall") {
-        let Some((along, length, member, ranges)) =
-            read(reader, view, &entry, grid, material, hinges, plans.len())
-        else {
+        let Some(wall) = read(reader, view, &entry, around) else {
             continue;
         };
-        let [x, y, storeys] = ranges;
+        let [x, y, storeys] = wall.ranges;
         let mut found = Vec::new();
         for storey in storeys[0]..=storeys[1] {
             for y in y[0]..=y[1] {
@@ -64,20 +76,23 @@ pub(super) fn read_all<'n>(
             continue;
         }
         for place in found {
-            columns.insert(place, member.clone());
+            columns.insert(place, wall.member.clone());
             walls.push(WallStorey {
                 place,
-                along,
-                length,
+                along: wall.along,
+                length: wall.length,
+                fibres: wall.fibres.get(&(place.storey() + 1)).cloned(),
             });
         }
     }
     walls
 }
 
-/// Lets beams along a wall begin at its faces, and joins its storeys. Walls have no rigid ends of their own.
-pub(super) fn add_to(walls: &[WallStorey], frame: &mut SpaceFrame) {
+/// Lets beams along a wall begin at its faces, joins its storeys, and adds its fibres. Walls have no rigid ends of their own.
+pub(super) fn add_to(walls: Vec<WallStorey>, frame: &mut SpaceFrame) {
     for wall in walls {
+        let own = wall.fibres.map(|fibres| (wall.place, fibres));
+        frame.fibres.extend(own);
         let [[x, y], _] = wall.place.crossings();
         let storey = wall.place.storey();
         for floor in storey.checked_sub(1).into_iter().chain([storey]) {
@@ -103,18 +118,24 @@ pub(super) fn add_to(walls: &[WallStorey], frame: &mut SpaceFrame) {
     }
 }
 
-/// Direction and length of a wall, its section, and where it stands, from 1.
-type Read<'n> = (PlanAxis, f64, Member<'n>, [[usize; 2]; 3]);
+/// What a table says of a wall.
+struct Read<'n> {
+    along: PlanAxis,
+    length: f64,
+    member: Member<'n>,
+    /// By storey, from 1.
+    fibres: BTreeMap<usize, ColumnFibres>,
+    /// Where it stands: lines of `lines_x` and of `lines_y`, and storeys, from 1.
+    ranges: [[usize; 2]; 3],
+}
 
 fn read<'n>(
     reader: &mut Reader<'_>,
     building: &View<'n>,
     entry: &Field<'n>,
-    grid: &Grid,
-    material: Material,
-    hinges: Option<&SpaceHinges<'n>>,
-    storeys: usize,
+    around: Around<'_, 'n>,
 ) -> Option<Read<'n>> {
+    let Around { grid, material, .. } = around;
     let view = reader.open(entry, &[Section::SpaceWall])?;
     let along = match reader.get(&view, "along") {
         Some(field) => reader.choice(&field, AXES_OF_PLAN, &[]),
@@ -138,31 +159,47 @@ fn read<'n>(
                 }
             }
         });
-    let (stated_modulus, own_is_bad) = read_modulus(reader, &view);
+    let (stated_modulus, own_is_bad) = match view.has("bars") {
+        true => read_modulus_beside_bars(reader, &view),
+        false => read_modulus(reader, &view),
+    };
     let modulus = stated_modulus.or(material.modulus);
     if modulus.is_none() && !material.modulus_is_bad && !own_is_bad {
         let place = view.span.clone();
         *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") =
             Some("add elastic_modulus = \"30 GPa\" or concrete = \"C30\" to the building".into());
     }
-    if let Some(hinge) = reader.get(&view, "hinge")
-        && wall_fibres::asked(reader, &hinge)
-    {
-        *reader.bad(&hinge, "has no fibres in a space frame yet") = Some(
-            "give the moments of the wall, such as hinge = { yield = \"2 MN.m\", post_yield = 0.02 }, or describe the building by frames at lines of its plan".into(),
-        );
-        return None;
-    }
-    // Without a hinge of its own a wall stays elastic, whatever columns do.
-    let moments = match view.has("hinge") {
-        true => read_hinge(reader, building, &view, Sort::Column, hinges)?,
-        false => [None, None],
-    };
     let [nx, ny] = grid.lines.each_ref().map(Vec::len);
-    let ranges = [("x", nx), ("y", ny), ("storeys", storeys)];
+    let ranges = [("x", nx), ("y", ny), ("storeys", around.plans.len())];
     let ranges = ranges.map(|(key, most)| range(reader, &view, key, most));
     let [Some(x), Some(y), Some(storeys)] = ranges else {
         return None;
+    };
+    let hinge = reader.get(&view, "hinge");
+    let mut fibres = BTreeMap::new();
+    // Without a hinge of its own a wall stays elastic, whatever columns do.
+    let of_fibres = match &hinge {
+        Some(field) => wall_fibres::asked_in_space(reader, field)?,
+        None => false,
+    };
+    let moments = match hinge {
+        Some(field) if of_fibres => {
+            let of_wall = OfWall {
+                size: [thickness, length],
+                storeys: (storeys[0], &around.heights[storeys[0] - 1..storeys[1]]),
+                concrete: reinforced::of_building(reader, building),
+                in_space: true,
+            };
+            fibres = wall_fibres::read(reader, &view, &field, of_wall)?;
+            [None, None]
+        }
+        hinge => {
+            wall_fibres::refuse(reader, &view, true);
+            match hinge {
+                Some(_) => read_hinge(reader, building, &view, Sort::Column, around.hinges)?,
+                None => [None, None],
+            }
+        }
     };
     let [usual, torsion] = material.factors;
     let factors = read_factors(reader, &view, [usual, material.poisson_ratio], None);
@@ -202,5 +239,24 @@ fn read<'n>(
         reinforced: None,
         moments: Some(moments),
     };
-    Some((along, length, member, [x, y, storeys]))
+    if along == PlanAxis::Y {
+        fibres.values_mut().for_each(lay_across);
+    }
+    Some(Read {
+        along,
+        length,
+        member,
+        fibres,
+        ranges: [x, y, storeys],
+    })
+}
+
+/// Lets fibres that lie along x lie across.
+fn lay_across(own: &mut ColumnFibres) {
+    let fibres = own.fibres.iter();
+    let turned = fibres.map(|fibre| Fibre {
+        at: [fibre.at[1], fibre.at[0]],
+        ..*fibre
+    });
+    own.fibres = turned.collect();
 }

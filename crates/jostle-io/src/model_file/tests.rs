@@ -194,7 +194,7 @@ beam_x = { width = 1, depth = 1, slab = { depth = 0.1, width = 1 } }
 brace = [{ along = "x", EA = 1 }]
 infill = [{ along = "x", stiffness = 1 }]
 joint = { x = { rotational_stiffness = 1, hinge = { rule = "bilinear", yield = 1 } } }
-wall = [{ along = "x", x = 1, length = 1, thickness = 0.2 }]
+wall = [{ along = "x", x = 1, length = 1, thickness = 0.2, steel = "HRB400", bars = "4 d20", hinge = { rule = "fibre", length = 1 } }]
 rigid_ends = { beams = 1 }
 hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 } }
 [[building]]

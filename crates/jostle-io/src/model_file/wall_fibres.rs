@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use jostle::ColumnFibres;
-use jostle_section::{SectionFault, WallReinforcement, WallSection};
+use jostle_section::{FibreOptions, SectionFault, WallReinforcement, WallSection};
 
 use super::fibre_hinges::{self, FibreLaws};
-use super::frame_walls::{Foot, fits, read_floors};
+use super::frame_walls::{HINGE, fits, hinge_length, read_floors};
 use super::reinforced::{self, Materials, understood};
 use crate::grade::ConcreteGrade;
 use crate::keys::Section;
@@ -14,8 +14,8 @@ use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::tree::Value;
 
-/// Keys of a wall that only fibres use.
-const OF_SECTION: [&str; 6] = ["bars", "concrete", "steel", "strength", "cover", "ties"];
+/// Keys of a wall that only fibres use; of a plane frame, `concrete` as well.
+const OF_SECTION: [&str; 6] = ["bars", "steel", "strength", "cover", "ties", "concrete"];
 
 /// Keys of moment hinges.
 const OF_MOMENTS: [&str; 10] = [
@@ -34,39 +34,83 @@ const OF_MOMENTS: [&str; 10] = [
 /// Layers of concrete over the length of a wall where nothing is said.
 const USUAL_LAYERS: usize = 40;
 
+/// Parts of the thickness of a wall of a space frame where nothing is said.
+const USUAL_ACROSS: usize = 4;
+
+/// Keys of a hinge of a wall of a space frame with fibres.
+const HINGE_IN_SPACE: &[Section] = &[Section::SpaceWallHinge, Section::WallEnds];
+
+/// A wall that can have fibres.
+#[derive(Clone, Copy)]
+pub(super) struct OfWall<'a> {
+    /// Its thickness and its length \[m\].
+    pub(super) size: [Option<f64>; 2],
+    /// Its lowest storey, from 1, and the heights of its storeys \[m\].
+    pub(super) storeys: (usize, &'a [f64]),
+    /// Concrete of the building.
+    pub(super) concrete: Option<ConcreteGrade>,
+    /// Whether it bends across as well.
+    pub(super) in_space: bool,
+}
+
+impl OfWall<'_> {
+    fn keys(&self) -> &'static [Section] {
+        match self.in_space {
+            true => HINGE_IN_SPACE,
+            false => HINGE,
+        }
+    }
+}
+
 /// Whether a hinge of a wall asks for fibres.
 pub(super) fn asked(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
-    let view = reader.quietly(|reader| reader.reopen(field, &[Section::WallHinge]));
+    let view = reader.quietly(|reader| reader.reopen(field, HINGE));
     view.is_some_and(|view| fibre_hinges::asked(reader, &view))
 }
 
+/// The same of a wall of a space frame, whose hinges with moments have no rule of their own; `None` after a fault.
+pub(super) fn asked_in_space(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<bool> {
+    let view = reader.quietly(|reader| reader.reopen(field, HINGE_IN_SPACE))?;
+    let Some(rule) = reader.get(&view, "rule") else {
+        return Some(false);
+    };
+    if fibre_hinges::asked(reader, &view) {
+        return Some(true);
+    }
+    *reader.bad(
+        &rule,
+        "must be \"fibre\" where a wall of a space frame has a rule of its own",
+    ) = Some("leave it out: hinges with moments have the rule of hinges of the building".into());
+    None
+}
+
 /// Notes keys that have no meaning without fibres.
-pub(super) fn refuse(reader: &mut Reader<'_>, wall: &View<'_>) {
-    for key in OF_SECTION {
+pub(super) fn refuse(reader: &mut Reader<'_>, wall: &View<'_>, in_space: bool) {
+    let own = if in_space { 5 } else { 6 };
+    for key in OF_SECTION.into_iter().take(own) {
         if let Some(field) = reader.get(wall, key) {
             *reader.bad(&field, "has no meaning without fibres") = Some(format!(
                 "remove {key}, or add hinge = {{ rule = \"fibre\", length = \"paulay-priestley\" }}"
             ));
         }
     }
-    let hinge = reader.get(wall, "hinge");
-    if let Some(view) = hinge.and_then(|field| reader.reopen(&field, &[Section::WallHinge])) {
+    let hinge = reader.get(wall, "hinge").filter(|_| !in_space);
+    if let Some(view) = hinge.and_then(|field| reader.reopen(&field, HINGE)) {
         fibre_hinges::refuse_laws(reader, &view);
     }
 }
 
-/// Fibres of a wall by storey; `None` after faults. `size`: its thickness and length; `first`: its lowest storey, from 1.
+/// Fibres of a wall by storey, from 1, with its left end first; `None` after faults.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     wall: &View<'_>,
     field: &Field<'_>,
-    size: [Option<f64>; 2],
-    foot: &Foot,
-    (first, heights): (usize, &[f64]),
-    of_building: Option<ConcreteGrade>,
+    of_wall: OfWall<'_>,
 ) -> Option<BTreeMap<usize, ColumnFibres>> {
-    let view = reader.reopen(field, &[Section::WallHinge])?;
-    for key in OF_MOMENTS {
+    let view = reader.open(field, of_wall.keys())?;
+    let (first, heights) = of_wall.storeys;
+    let of_moments = OF_MOMENTS.into_iter().filter(|_| !of_wall.in_space);
+    for key in of_moments {
         if let Some(field) = reader.get(&view, key) {
             *reader.bad(&field, "cannot be combined with rule = \"fibre\"") = Some(format!(
                 "remove {key}: fibres follow from the bars of the wall"
@@ -75,10 +119,14 @@ pub(super) fn read(
     }
     let lowest = first - 1;
     let places = read_floors(reader, &view, lowest..lowest + heights.len());
-    let laws = FibreLaws::read(reader, &view, "0.2 l + 0.044 h", false);
-    let section = read_section(reader, wall, field, size, of_building);
+    let laws = FibreLaws::read(reader, &view, "0.2 l + 0.044 h", of_wall.in_space);
+    let section = read_section(reader, wall, field, of_wall.size, of_wall.concrete);
     let ((floors, everywhere), laws, section) = (places?, laws?, section?);
-    let options = laws.options(foot.hinge_length(), USUAL_LAYERS);
+    let usual = hinge_length(of_wall.size[1]?, heights.iter().sum());
+    let options = FibreOptions {
+        across: of_wall.in_space.then(|| laws.across(USUAL_ACROSS)),
+        ..laws.options(usual, USUAL_LAYERS)
+    };
     let mut limits = section.strain_limits();
     limits.extend(laws.limits());
     let fibres = match section.fibres(&options) {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::statics::STANDARD_GRAVITY;
-use jostle::{Diagonal, DiagonalKind, Frame, Section, SpaceFrame, StrutLine};
+use jostle::{ColumnFibres, Diagonal, DiagonalKind, Frame, Section, SpaceFrame, StrutLine};
 use jostle_io::shown::{
     FORCE, HEIGHT, LARGE_FORCE, LARGE_RIGIDITY, LARGE_STIFFNESS, LENGTH, Shown,
 };
@@ -97,18 +97,8 @@ pub(super) fn walls(frame: &Frame) -> String {
     for (index, wall) in frame.walls.iter().enumerate() {
         let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
         let at_foot = |hinge: &jostle::WallHinge| hinge.storey == wall.storeys[0] && !hinge.at_head;
-        let ends = wall.fibres.values();
-        let ends = ends.map(|of_storey| of_storey.at_ends.iter().filter(|stands| **stands).count());
-        let first = wall.fibres.first_key_value();
         let bends = match &wall.hinges[..] {
-            [] => first.map_or_else(String::new, |(_, own)| {
-                format!(
-                    "by {} fibres over {} at {}",
-                    own.fibres.len(),
-                    HEIGHT.text(own.length, 3),
-                    counted(ends.sum(), "storey end")
-                )
-            }),
+            [] => by_fibres(wall.fibres.values()),
             [hinge] if at_foot(hinge) => "at its foot".to_owned(),
             all => format!("at {} storey ends", all.len()),
         };
@@ -159,6 +149,24 @@ pub(super) fn walls(frame: &Frame) -> String {
     text
 }
 
+/// Fibres at ends of storeys of a wall; empty without any.
+fn by_fibres<'a>(all: impl Iterator<Item = &'a ColumnFibres>) -> String {
+    let mut ends = 0;
+    let mut first = None;
+    for own in all {
+        ends += own.at_ends.iter().filter(|stands| **stands).count();
+        first = first.or(Some(own));
+    }
+    first.map_or_else(String::new, |own| {
+        format!(
+            "by {} fibres over {} at {}",
+            own.fibres.len(),
+            HEIGHT.text(own.length, 3),
+            counted(ends, "storey end")
+        )
+    })
+}
+
 /// Every wall of a space frame.
 pub(super) fn space_walls(frame: &SpaceFrame) -> String {
     let mut text = String::new();
@@ -189,15 +197,20 @@ pub(super) fn space_walls(frame: &SpaceFrame) -> String {
                     .map(|shear_rigidity| shear_rigidity[plane]),
                 LARGE_FORCE,
             );
+        let own = frame.fibres.iter().filter(|(place, _)| wall.has(**place));
+        let yields = match by_fibres(own.map(|(_, own)| own)) {
+            fibres if !fibres.is_empty() => format!(", yields {fibres}"),
+            _ if member.may_yield() => ", yields".to_owned(),
+            _ => String::new(),
+        };
         let _ = write!(
             text,
-            "\n  wall {} along {} at x = {} {unit}, y = {} {unit}, {storeys}, {} {unit} long{rigidities}{}",
+            "\n  wall {} along {} at x = {} {unit}, y = {} {unit}, {storeys}, {} {unit} long{rigidities}{yields}",
             index + 1,
             wall.along.name(),
             HEIGHT.stated(frame.lines_x[x]),
             HEIGHT.stated(frame.lines_y[y]),
             HEIGHT.stated(wall.length),
-            if member.may_yield() { ", yields" } else { "" }
         );
     }
     text

@@ -181,8 +181,11 @@ pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std
 
 /// Fibres and hinges of a space frame: how many, and at which moments, of columns along x and across, and of beams.
 fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Result {
-    if let Some((place, first)) = frame.fibres.first_key_value() {
-        let all = frame.fibres.values();
+    // Walls say theirs by themselves.
+    let is_wall = |place: &SpacePlace| frame.walls.iter().any(|wall| wall.has(*place));
+    let of_columns = frame.fibres.iter().filter(|(place, _)| !is_wall(place));
+    if let Some((place, first)) = of_columns.clone().next() {
+        let all = of_columns.map(|(_, own)| own);
         writeln!(text, "  {}", fibres(all, &place.to_string(), first))?;
     }
     let is_column = |member: &SpaceMember| matches!(member.place, SpacePlace::Column { .. });

@@ -177,6 +177,24 @@ law = "kelvin-no-tension"
 stiffness = "400 MN/m"
 "#;
 
+const FIBRED_WALL_IN_SPACE: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2 s", across = { record = "el-centro-1940-ns", pga = "0.4 g", duration = "2 s" } }
+[[building]]
+name = "V"
+kind = "space-frame"
+storeys = 2
+storey_height = "3 m"
+lines_x = [0, 5]
+lines_y = [0, 4]
+concrete = "C30"
+mass = "60 t"
+column = { size = ["400 mm", "400 mm"] }
+beam_x = { width = "250 mm", depth = "500 mm" }
+beam_y = { width = "250 mm", depth = "500 mm" }
+gravity = true
+wall = [{ along = "y", x = 1, length = "2 m", thickness = "200 mm", steel = "HRB400", bars = { edges = "6 d16", edge_length = "400 mm", web = "8 d10" }, ties = "d8 @ 100 mm", hinge = { rule = "fibre", length = "0.8 m", fibres = [12, 2] } }]
+"#;
+
 const ON_SURFACES: &str = r#"
 motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
 [[building]]
@@ -235,6 +253,7 @@ pub(super) fn models() -> Vec<Pinned> {
         ("surfaces", ON_SURFACES),
         ("lifting", LIFTING),
         ("fibres in space", FIBRED_IN_SPACE),
+        ("walls of fibres in space", FIBRED_WALL_IN_SPACE),
         ("shear, connections and braces in space", FAILING_IN_SPACE),
         ("panels", PANELLED),
         ("pendulums", ON_PENDULUMS),

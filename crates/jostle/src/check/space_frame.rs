@@ -100,17 +100,16 @@ pub(super) fn check_space_frame(
             format!("lets {} fail, and there is none", name(*place)),
         );
     }
-    if !frame.fibres.is_empty() {
-        fibres::check_weight(faults, &format!("{path}.hinges"), building);
+    // Of walls their own, of columns those of the building.
+    let field = |place: &SpacePlace| match frame.walls.iter().any(|wall| wall.has(*place)) {
+        true => format!("{path}.wall"),
+        false => format!("{path}.hinges"),
+    };
+    if let Some((place, _)) = frame.fibres.first_key_value() {
+        fibres::check_weight(faults, &field(place), building);
     }
     for (place, member_fibres) in &frame.fibres {
-        check_fibres(
-            faults,
-            &format!("{path}.hinges"),
-            frame,
-            *place,
-            member_fibres,
-        );
+        check_fibres(faults, &field(place), frame, *place, member_fibres);
     }
     if faults.0.len() > before {
         return;

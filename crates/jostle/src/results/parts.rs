@@ -185,7 +185,10 @@ fn of_wall(
     let foot = wall.foot_section.map(|foot| &sections[foot]);
     let [most, least] = match (hinge, foot) {
         (Some(hinge), _) => [hinge.deformation_max, hinge.deformation_min],
-        (None, Some(foot)) => [foot.rotation_max_rad, -foot.rotation_min_rad],
+        (None, Some(foot)) => match foot.across.as_ref().filter(|_| wall.across) {
+            Some(foot) => [foot.rotation_across_max_rad, -foot.rotation_across_min_rad],
+            None => [foot.rotation_max_rad, -foot.rotation_min_rad],
+        },
         (None, None) => [0.0; 2],
     };
     let fibres = wall.sections.iter();

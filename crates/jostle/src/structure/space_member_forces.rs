@@ -95,13 +95,25 @@ impl MemberForces {
             let upper = storeys.flat_map(|storey| {
                 [MemberEnd::First, MemberEnd::Last].map(|end| hinge(storey, end))
             });
+            let sections: Vec<usize> = (0..discretization.sections.len())
+                .filter(|section| match discretization.sections[*section].member {
+                    MemberPlace::InSpace(place) => wall.has(place),
+                    _ => false,
+                })
+                .collect();
+            let at_foot = |section: &&usize| {
+                let section = &discretization.sections[**section];
+                let foot = MemberPlace::InSpace(wall.column(wall.storeys[0]));
+                (section.member, section.end) == (foot, MemberEnd::First)
+            };
             self.walls.push(WallForce {
+                across: wall.along == PlanAxis::Y,
                 frame: None,
                 number: index + 1,
                 hinge: foot,
                 upper_hinges: upper.filter(|upper| *upper != foot).collect(),
-                foot_section: None,
-                sections: Vec::new(),
+                foot_section: sections.iter().find(at_foot).copied(),
+                sections,
                 sliding: None,
                 axial,
                 moment,

@@ -28,6 +28,8 @@ pub struct WallForce {
     pub hinge: SpringPlace,
     /// Where it turns above.
     pub upper_hinges: Vec<SpringPlace>,
+    /// Whether it stands across the lines along x of a space frame.
+    pub across: bool,
     /// Its foot, if that is made of fibres: index among [`crate::structure::Discretization::sections`].
     pub foot_section: Option<usize>,
     /// All its ends that are made of fibres, likewise.
@@ -89,13 +91,32 @@ impl MemberForces {
                 .member_at(frame_wall.frame, top)
                 .unwrap_or(foot);
             let ends = [cuts.first_node(foot), cuts.last_node(top)];
-            let stretched = over_nodes([((ends[1], Y), 1.0), ((ends[0], Y), -1.0)]);
+            let (line, storey) = (frame_wall.part.line, frame_wall.part.storeys[0]);
+            let [first, last] = frame_wall.part.storeys;
+            let sections: Vec<usize> = (0..discretization.sections.len())
+                .filter(|section| {
+                    let FibreSection { frame, member, .. } = discretization.sections[*section];
+                    let of_wall = |storey| member == MemberPlace::Column { line, storey };
+                    frame == frame_wall.frame && (first..=last).any(of_wall)
+                })
+                .collect();
+            let mut stretched = over_nodes([((ends[1], Y), 1.0), ((ends[0], Y), -1.0)]);
+            // Fibres at its foot and its head lie beyond these nodes.
+            for section in &sections {
+                let own = &discretization.sections[*section];
+                let storey = match own.end {
+                    MemberEnd::First => first,
+                    MemberEnd::Last => last,
+                };
+                if own.member == (MemberPlace::Column { line, storey }) && own.point.is_none() {
+                    stretched.add_times(1.0, &own.elongation);
+                }
+            }
             let stretched = discretization.stick_model.carried_row(&stretched);
             let elongation = self.index_of(LinearForm {
                 displacement: building.equations.row(&stretched),
                 ..LinearForm::default()
             });
-            let (line, storey) = (frame_wall.part.line, frame_wall.part.storeys[0]);
             let before = discretization.walls[..wall].iter();
             let hinge = |storey, end| SpringPlace::Column { storey, line, end };
             let upper = frame_wall
@@ -107,19 +128,12 @@ impl MemberForces {
                     false => hinge(end_hinge.storey, MemberEnd::First),
                 });
             let foot_hinge = hinge(storey, MemberEnd::First);
-            let [first, last] = frame_wall.part.storeys;
-            let sections: Vec<usize> = (0..discretization.sections.len())
-                .filter(|section| {
-                    let FibreSection { frame, member, .. } = discretization.sections[*section];
-                    let of_wall = |storey| member == MemberPlace::Column { line, storey };
-                    frame == frame_wall.frame && (first..=last).any(of_wall)
-                })
-                .collect();
             let at_foot = |section: &&usize| {
                 let section = &discretization.sections[**section];
                 (section.member, section.end, section.point) == (place, MemberEnd::First, None)
             };
             self.walls.push(WallForce {
+                across: false,
                 upper_hinges: upper.filter(|upper| *upper != foot_hinge).collect(),
                 frame: frame_wall.frame,
                 number: 1 + before
