@@ -14,7 +14,9 @@ use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 use jostle_report::{required_width, rows_of_rules};
-use jostle_run::{RuleGap, counted, earlier_gap_curves, gap_sets, write_gap_curves};
+use jostle_run::{
+    GAP_PAGE, RuleGap, counted, earlier_gap_files, gap_json, gap_sets, write_gap_files,
+};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -42,14 +44,14 @@ pub(crate) struct GapArgs {
     /// Do not run the model with the gaps that the rules require
     #[arg(long)]
     no_outcomes: bool,
-    /// Also compute force and impacts at N equally spaced widths from zero to the gap needed, 2 to 10000, as a page and a table
+    /// Also compute force and impacts at N equally spaced widths from zero to the gap needed, 2 to 10000
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     curve: Option<u32>,
-    /// Folder for the curve [default: jostle-out/MODEL-gap; with --json, none]
-    #[arg(long, value_name = "DIR", requires = "curve")]
+    /// Folder for the page, the numbers and the tables [default: jostle-out/MODEL-gap; with --json, none]
+    #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace files in the folder that jostle did not write
-    #[arg(long, requires = "curve")]
+    #[arg(long)]
     force: bool,
     /// Print JSON and nothing else
     #[arg(long)]
@@ -148,15 +150,14 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         }
     }
     if let Some(out) = &out {
-        write_gap_curves(out, &title, &found)?;
+        write_gap_files(out, &title, &found, &notes)?;
     }
     if args.json {
-        terminal::print(&json(&title, &found, &notes))?;
+        terminal::print(&gap_json(&title, &found, &notes))?;
     } else {
         let mut text = describe(&title, &found);
         if let Some(out) = &out {
-            let page = out.join("gap_curve.html");
-            text += &format!("\nforce over gap: {}\n", page.display());
+            text += &format!("→ {}\n", out.join(GAP_PAGE).display());
         }
         terminal::print(&text)?;
     }
@@ -167,22 +168,19 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
 }
 
 impl GapArgs {
-    /// The folder for the curve, made and looked through, if one is to be written.
+    /// The folder for files, made and looked through, if some are to be written.
     fn folder(&self, name: &str) -> Result<Option<PathBuf>, Failure> {
-        let default = || {
-            let wanted = self.curve.is_some() && !self.json;
-            wanted.then(|| Path::new("jostle-out").join(format!("{name}-gap")))
-        };
+        let default = || (!self.json).then(|| Path::new("jostle-out").join(format!("{name}-gap")));
         let Some(out) = self.out.clone().or_else(default) else {
             return Ok(None);
         };
         std::fs::create_dir_all(&out).map_err(|error| {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
-        let earlier = earlier_gap_curves(&out, self.force)?;
+        let earlier = earlier_gap_files(&out, self.force)?;
         if !earlier.is_empty() {
             terminal::remark(&format!(
-                "{} holds an earlier curve, which is replaced: {}",
+                "{} holds results of an earlier search, which are replaced: {}",
                 out.display(),
                 earlier.join(", ")
             ));
@@ -213,30 +211,6 @@ fn note(notes: &mut Vec<String>, warning: &str) {
         terminal::warn(warning);
         notes.push(warning.to_owned());
     }
-}
-
-/// Every number as JSON.
-pub(crate) fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
-    let sets: Vec<_> = gap_sets(found)
-        .into_iter()
-        .map(|set| {
-            serde_json::json!({
-                "between": set.governing.between,
-                "records": set.gaps.len(),
-                "gap_max_m": set.governing.of_both_signs_m(),
-                "gap_mean_m": set.mean_m,
-                "gap_deviation_m": set.deviation_m,
-            })
-        })
-        .collect();
-    let value = serde_json::json!({
-        "title": title,
-        "jostle": env!("CARGO_PKG_VERSION"),
-        "gaps": found,
-        "sets": sets,
-        "notes": notes,
-    });
-    serde_json::to_string_pretty(&value).unwrap_or_default()
 }
 
 /// The gaps beside those of rules and codes, as text.

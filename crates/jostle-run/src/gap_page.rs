@@ -1,4 +1,4 @@
-//! Force over gap as a page and a table.
+//! Gaps needed beside those of rules, and force over gap: a page, tables and numbers.
 
 use jostle_report::{
     Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study, required_width,
@@ -7,7 +7,7 @@ use jostle_report::{
 
 use std::path::Path;
 
-use jostle_io::write_atomically;
+use jostle_io::{OutputError, write_atomically};
 
 use crate::critical_gap::{CriticalGap, GapSet, gap_sets};
 use crate::error::RunError;
@@ -16,19 +16,64 @@ use crate::replace::{FileKind, may_write};
 use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_report::message;
 
-/// Page of the curves.
-const PAGE: &str = "gap_curve.html";
-/// Their table.
-const TABLE: &str = "gap_curve.csv";
+/// The page.
+pub const PAGE: &str = "gap.html";
+/// All numbers.
+const NUMBERS: &str = "gap.json";
+/// The rules, with the gaps needed.
+const RULES: &str = "gap.csv";
+/// Force over gap.
+const CURVES: &str = "gap_curve.csv";
 
-/// First line of the table.
-const HEAD: &str =
+/// First line of the table of rules.
+const RULES_HEAD: &str = "left,right,motion,pga_m_s2,needed_m,reversed_needed_m,rule,gap_m,ratio_of_both_signs,impact_count,peak_force_n,reversed_impact_count,reversed_peak_force_n,clause\n";
+
+/// First line of the table of the curves.
+const CURVES_HEAD: &str =
     "left,right,motion,pga_m_s2,width_m,impact_count,peak_force_n,first_impact_s,met,reversed\n";
+
+/// The gaps needed and what rules require as a table: one row per rule and motion, cells without a value empty.
+#[must_use]
+pub fn gap_rules_csv(found: &[CriticalGap]) -> String {
+    let mut text = RULES_HEAD.to_owned();
+    for gap in found {
+        let of_gap = [
+            quoted(&gap.between[0]),
+            quoted(&gap.between[1]),
+            quoted(&gap.motion),
+            gap.pga_m_s2.to_string(),
+            gap.gap_m.to_string(),
+            cell(gap.reversed_gap_m),
+        ]
+        .join(",");
+        for rule in &gap.rules {
+            let cells = [
+                quoted(&rule.rule),
+                rule.gap_m.to_string(),
+                cell(rule.ratio_of_both_signs),
+                cell(rule.impact_count),
+                cell(rule.peak_force_n),
+                cell(rule.reversed_impact_count),
+                cell(rule.reversed_peak_force_n),
+                quoted(&rule.source),
+            ];
+            text += &format!("{of_gap},{}\n", cells.join(","));
+        }
+        if gap.rules.is_empty() {
+            text += &format!("{of_gap},,,,,,,,\n");
+        }
+    }
+    text
+}
+
+fn cell<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
+}
 
 /// The curves of all gaps and motions as a table: one row per width, cells without a value empty.
 #[must_use]
 pub fn gap_curve_csv(found: &[CriticalGap]) -> String {
-    let mut text = HEAD.to_owned();
+    let mut text = CURVES_HEAD.to_owned();
     for gap in found {
         for (point, is_reversed) in points(gap) {
             let cells = [
@@ -39,10 +84,8 @@ pub fn gap_curve_csv(found: &[CriticalGap]) -> String {
                 point.width_m.to_string(),
                 point.impact_count.to_string(),
                 point.peak_force_n.to_string(),
-                point
-                    .first_impact_s
-                    .map_or(String::new(), |t| t.to_string()),
-                point.met.map_or(String::new(), |met| met.to_string()),
+                cell(point.first_impact_s),
+                cell(point.met),
                 is_reversed.to_string(),
             ];
             text += &cells.join(",");
@@ -58,14 +101,41 @@ fn points(gap: &CriticalGap) -> impl Iterator<Item = (&crate::GapPoint, bool)> {
     gap.curve.iter().map(|point| (point, false)).chain(reversed)
 }
 
-/// Files of earlier curves in a folder, which new ones replace.
+/// Every number as JSON. `notes`: warnings.
+#[must_use]
+pub fn gap_json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
+    let sets: Vec<_> = gap_sets(found)
+        .into_iter()
+        .map(|set| {
+            serde_json::json!({
+                "between": set.governing.between,
+                "records": set.gaps.len(),
+                "gap_max_m": set.governing.of_both_signs_m(),
+                "gap_mean_m": set.mean_m,
+                "gap_deviation_m": set.deviation_m,
+            })
+        })
+        .collect();
+    let value = serde_json::json!({
+        "title": title,
+        "jostle": env!("CARGO_PKG_VERSION"),
+        "gaps": found,
+        "sets": sets,
+        "notes": notes,
+    });
+    serde_json::to_string_pretty(&value).unwrap_or_default()
+}
+
+/// Files of an earlier search in a folder, which new ones replace.
 ///
 /// # Errors
 /// [`RunError`] if a file that jostle did not write is in the way and `force` is not set.
-pub fn earlier_gap_curves(folder: &Path, force: bool) -> Result<Vec<&'static str>, RunError> {
+pub fn earlier_gap_files(folder: &Path, force: bool) -> Result<Vec<&'static str>, RunError> {
     let files = [
-        (PAGE, FileKind::GAP_CURVE_PAGE),
-        (TABLE, FileKind::GAP_CURVE),
+        (PAGE, FileKind::GAP_PAGE),
+        (NUMBERS, FileKind::GAP_NUMBERS),
+        (RULES, FileKind::GAP_RULES),
+        (CURVES, FileKind::GAP_CURVES),
     ];
     let mut earlier = Vec::new();
     for (name, kind) in files {
@@ -76,14 +146,35 @@ pub fn earlier_gap_curves(folder: &Path, force: bool) -> Result<Vec<&'static str
     Ok(earlier)
 }
 
-/// Writes page and table of the curves into a folder that exists; each is whole or not there.
+/// Writes the page, all numbers and the tables of a search into a folder that exists; each is whole or not there. Curves of an earlier
+/// search that this one has not are removed. `notes`: warnings.
 ///
 /// # Errors
 /// [`RunError::Output`] with path and reason.
-pub fn write_gap_curves(folder: &Path, title: &str, found: &[CriticalGap]) -> Result<(), RunError> {
-    write_atomically(&folder.join(TABLE), gap_curve_csv(found).as_bytes())?;
-    write_atomically(&folder.join(PAGE), gap_curve_page(title, found).as_bytes())?;
+pub fn write_gap_files(
+    folder: &Path,
+    title: &str,
+    found: &[CriticalGap],
+    notes: &[String],
+) -> Result<(), RunError> {
+    let numbers = gap_json(title, found, notes);
+    write_atomically(&folder.join(NUMBERS), format!("{numbers}\n").as_bytes())?;
+    write_atomically(&folder.join(RULES), gap_rules_csv(found).as_bytes())?;
+    let curves = folder.join(CURVES);
+    if has_curves(found) {
+        write_atomically(&curves, gap_curve_csv(found).as_bytes())?;
+    } else if curves.exists() {
+        std::fs::remove_file(&curves).map_err(|error| OutputError::Io {
+            path: curves,
+            error,
+        })?;
+    }
+    write_atomically(&folder.join(PAGE), gap_page(title, found).as_bytes())?;
     Ok(())
+}
+
+fn has_curves(found: &[CriticalGap]) -> bool {
+    found.iter().any(|gap| points(gap).next().is_some())
 }
 
 fn quoted(text: &str) -> String {
@@ -93,20 +184,27 @@ fn quoted(text: &str) -> String {
     text.to_owned()
 }
 
-/// The page of the curves; it loads nothing from outside.
+/// The page; it loads nothing from outside.
 #[must_use]
-pub fn gap_curve_page(title: &str, found: &[CriticalGap]) -> String {
+pub fn gap_page(title: &str, found: &[CriticalGap]) -> String {
+    let mut files = vec![
+        (RULES.into(), message::one_row_per_rule().into()),
+        (NUMBERS.into(), message::all_numbers().into()),
+    ];
+    if has_curves(found) {
+        files.push((CURVES.into(), message::one_row_per_width().into()));
+    }
     let sets = gap_sets(found);
     let answers = sets.iter().map(|set| answer(set, sets.len()));
     let sections = sets.iter().flat_map(sections_of);
     render_study(&StudyPage {
-        kind: message::force_over_gap().into(),
+        kind: message::gap_needed(""),
         title: title.into(),
         subject: subject(&sets),
         headline: headlines(&sets),
         answers: answers.collect(),
         sections: sections.collect(),
-        files: vec![(TABLE.into(), message::one_row_per_width().into())],
+        files,
         ..StudyPage::default()
     })
 }
@@ -292,27 +390,30 @@ fn sections_of(set: &GapSet<'_>) -> Vec<Section> {
     };
     forces.extend(only.into_iter().flat_map(dots_of_rules));
     let dots = only.map_or("", |_| message::dots_are_rules());
-    let charts = vec![
-        chart(
-            axis(message::greatest_contact_force(), FORCE.name()),
-            forces,
-        ),
-        chart(
-            axis(message::impacts(), ""),
-            lines(set, &|p| p.impact_count as f64),
-        ),
+    let impacts = lines(set, &|p| p.impact_count as f64);
+    let remark = match impacts.is_empty() {
+        true => message::forces_with_gaps_of_rules().to_owned(),
+        false => message::greatest_contact_force_and_number(dots, &warning),
+    };
+    let charts = [
+        (message::greatest_contact_force(), FORCE.name(), forces),
+        (message::impacts(), "", impacts),
     ];
-    let curves = Section {
+    let charts = charts.into_iter().filter(|(.., series)| !series.is_empty());
+    let charts: Vec<Chart> = charts
+        .map(|(name, unit, series)| chart(axis(name, unit), series))
+        .collect();
+    let curves = (!charts.is_empty()).then(|| Section {
         title: set.governing.between.join(" ↔ "),
-        remark: message::greatest_contact_force_and_number(dots, &warning),
+        remark,
         charts,
         ..Section::default()
-    };
+    });
     let rules = match only {
         Some(gap) => rules_of(gap),
         None => rules_of_records(set),
     };
-    std::iter::once(curves).chain(rules).collect()
+    curves.into_iter().chain(rules).collect()
 }
 
 /// A width over the gap needed: never 1.00 below 1, where the buildings touch.

@@ -76,7 +76,10 @@ pub use expectation::{Expectation, Pace};
 pub use export::{export_matrices, export_script, may_write_script};
 pub use files::{Content, earlier_files};
 pub use floor_spectra::RunFloorSpectra;
-pub use gap_page::{earlier_gap_curves, gap_curve_csv, gap_curve_page, write_gap_curves};
+pub use gap_page::{
+    PAGE as GAP_PAGE, earlier_gap_files, gap_curve_csv, gap_json, gap_page, gap_rules_csv,
+    write_gap_files,
+};
 pub use gap_runs::{GapError, GapPoint};
 pub use gradients::GradientRequest;
 pub use history_file::STORAGE;

@@ -102,13 +102,23 @@ impl FileKind {
         name: "result of jostle size",
         marks: &["\"minimise\":", "\"keep\":", "\"jostle\":"],
     };
-    /// Pages of `jostle gap --curve`.
-    pub const GAP_CURVE_PAGE: Self = Self {
+    /// Pages, numbers and tables of `jostle gap`.
+    pub const GAP_PAGE: Self = Self {
         name: "page of jostle gap",
-        marks: &["<html", " – force over gap</title>"],
+        marks: &["<html", " – gap needed</title>"],
     };
-    /// Tables of `jostle gap --curve`.
-    pub const GAP_CURVE: Self = Self {
+    /// See [`Self::GAP_PAGE`].
+    pub const GAP_NUMBERS: Self = Self {
+        name: "result of jostle gap",
+        marks: &["\"gaps\":", "\"jostle\":", "\"title\":"],
+    };
+    /// See [`Self::GAP_PAGE`].
+    pub const GAP_RULES: Self = Self {
+        name: "table of jostle gap",
+        marks: &["left,right,motion,pga_m_s2,needed_m,"],
+    };
+    /// See [`Self::GAP_PAGE`].
+    pub const GAP_CURVES: Self = Self {
         name: "table of jostle gap",
         marks: &["left,right,motion,pga_m_s2,width_m,"],
     };

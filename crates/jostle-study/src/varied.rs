@@ -10,6 +10,8 @@ use crate::study::Study;
 
 /// Entries of a list or values of a model that are written out.
 const MOST_SHOWN: usize = 4;
+/// Digits up to which a value is written as it stands.
+const MOST_DIGITS: usize = 6;
 /// Between these probabilities lies what is called the range of a distribution without ends.
 const RANGE: [f64; 2] = [0.05, 0.95];
 
@@ -103,12 +105,24 @@ pub fn varied(study: &Study) -> Vec<Varied> {
 }
 
 fn listed(levels: &[Level]) -> String {
-    let labels: Vec<String> = levels.iter().map(|level| level.label.clone()).collect();
+    let labels: Vec<String> = levels.iter().map(|level| rounded(&level.label)).collect();
     match &labels[..] {
         [first, .., last] if labels.len() > MOST_SHOWN => {
             format!("{first} … {last} ({} values)", labels.len())
         }
         _ => labels.join(", "),
+    }
+}
+
+/// A label whose number has no more than four digits, with its unit.
+fn rounded(label: &str) -> String {
+    let (number, unit) = label.split_once(' ').unwrap_or((label, ""));
+    let digits = number.chars().filter(char::is_ascii_digit).count();
+    match number.parse::<f64>() {
+        Ok(value) if digits > MOST_DIGITS => {
+            format!("{} {unit}", short(value)).trim_end().to_owned()
+        }
+        Ok(_) | Err(_) => label.to_owned(),
     }
 }
 
@@ -155,5 +169,26 @@ fn shortened(texts: &[String], between: &str) -> String {
             format!("{first}{between}{second} … {last}")
         }
         _ => texts.join(between),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_fractions_are_rounded_and_units_kept() {
+        let all = [
+            "0.23333333333333334 g",
+            "0.05 g",
+            "120 mm",
+            "hertz-damp",
+            "0.41666666666666663",
+        ];
+        let texts = all.map(rounded);
+        assert_eq!(
+            texts,
+            ["0.2333 g", "0.05 g", "120 mm", "hertz-damp", "0.4167"]
+        );
     }
 }

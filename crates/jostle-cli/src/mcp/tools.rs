@@ -184,7 +184,7 @@ fn gap(files: &Files, arguments: Value, cancelled: Cancelled<'_>) -> Result<Stri
     }
     let title = &opened.input.model.title;
     Ok(match asked.json {
-        true => crate::gap::json(title, &found, &opened.input.warnings),
+        true => jostle_run::gap_json(title, &found, &opened.input.warnings),
         false => crate::gap::describe(title, &found),
     })
 }

@@ -1,4 +1,4 @@
-//! Force and impacts over the width of a gap: `jostle gap --curve`.
+//! Files of `jostle gap`: the page, numbers and rules, and with `--curve` force and impacts over the width.
 
 use std::path::Path;
 
@@ -55,13 +55,9 @@ fn a_point_of_the_curve_is_the_run_with_its_gap() {
     let folder = with_model();
     let output = jostle(folder.path(), &[&CURVE[..], &["curve"]].concat());
     assert!(output.status.success(), "{}", complained(&output));
-    assert!(
-        printed(&output).contains("force over gap: curve"),
-        "{}",
-        printed(&output)
-    );
+    assert!(printed(&output).contains("→ curve"), "{}", printed(&output));
     let curve = folder.path().join("curve");
-    let page = std::fs::read_to_string(curve.join("gap_curve.html")).expect("a page");
+    let page = std::fs::read_to_string(curve.join("gap.html")).expect("a page");
     assert!(page.contains("pair") && page.trim_end().ends_with("</html>"));
 
     let rows = rows(&curve.join("gap_curve.csv"));
@@ -92,14 +88,14 @@ fn a_point_of_the_curve_is_the_run_with_its_gap() {
 #[test]
 fn a_curve_replaces_its_own_files_and_nothing_else() {
     let folder = with_model();
-    let (out, page) = ("curve", folder.path().join("curve/gap_curve.html"));
+    let (out, page) = ("curve", folder.path().join("curve/gap.html"));
     std::fs::create_dir(folder.path().join(out)).expect("made");
     std::fs::write(&page, "mine\n").expect("written");
     let refused = jostle(folder.path(), &[&CURVE[..], &[out]].concat());
     assert_eq!(refused.status.code(), Some(2));
     let complaint = complained(&refused);
     assert!(
-        complaint.contains("gap_curve.html") && complaint.contains("--force"),
+        complaint.contains("gap.html") && complaint.contains("--force"),
         "{complaint}"
     );
     assert_eq!(std::fs::read_to_string(&page).expect("kept"), "mine\n");
@@ -109,20 +105,56 @@ fn a_curve_replaces_its_own_files_and_nothing_else() {
     let again = jostle(folder.path(), &[&CURVE[..], &[out]].concat());
     assert!(again.status.success(), "{}", complained(&again));
     assert!(
-        complained(&again).contains("holds an earlier curve"),
+        complained(&again).contains("holds results of an earlier search"),
         "{}",
         complained(&again)
     );
 }
 
 #[test]
-fn a_folder_needs_a_curve() {
+fn every_search_writes_its_page_numbers_and_rules() {
     let folder = with_model();
-    let output = jostle(folder.path(), &["gap", "pair.toml", "--out", "curve"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        complained(&output).contains("--curve"),
-        "{}",
-        complained(&output)
+    let searched = |more: &[&str]| {
+        let output = jostle(folder.path(), &[&["gap", "pair.toml"], more].concat());
+        assert!(output.status.success(), "{}", complained(&output));
+        printed(&output)
+    };
+    let names = |out: &str| {
+        let files = std::fs::read_dir(folder.path().join(out)).expect("a folder");
+        let mut names: Vec<String> = files
+            .map(|file| file.expect("a file").file_name().display().to_string())
+            .collect();
+        names.sort();
+        names
+    };
+    assert!(searched(&["--curve", "9"]).contains("→ jostle-out"));
+    let default = "jostle-out/pair-gap";
+    assert_eq!(
+        names(default),
+        ["gap.csv", "gap.html", "gap.json", "gap_curve.csv"]
     );
+    // A curve of an earlier search does not stay beside the numbers of this one.
+    searched(&[]);
+    assert_eq!(names(default), ["gap.csv", "gap.html", "gap.json"]);
+
+    let printed = searched(&["--json", "--out", "files"]);
+    let written = std::fs::read_to_string(folder.path().join("files/gap.json")).expect("numbers");
+    assert_eq!(printed.trim(), written.trim());
+    let numbers: serde_json::Value = serde_json::from_str(&written).expect("JSON");
+    let rules = numbers["gaps"][0]["rules"].as_array().expect("rules");
+    let table = rows(&folder.path().join("files/gap.csv"));
+    assert_eq!(table.len(), rules.len());
+    for (row, rule) in table.iter().zip(rules) {
+        assert_eq!(row["rule"], rule["rule"].as_str().expect("a name"));
+        assert_eq!(row["gap_m"].parse().ok(), rule["gap_m"].as_f64());
+        assert_eq!(
+            row["peak_force_n"].parse().ok(),
+            rule["peak_force_n"].as_f64()
+        );
+    }
+    let page = std::fs::read_to_string(folder.path().join("files/gap.html")).expect("a page");
+    assert!(page.contains("greatest contact force") && page.contains("ABS"));
+
+    searched(&["--json"]);
+    assert!(!folder.path().join("jostle-out/pair-gap/other").exists());
 }

@@ -988,8 +988,9 @@ messages! {
     several_impacts(number) = "{number} impacts";
 
     // jostle-run/gap_page
-    force_over_gap = "Force over gap";
     one_row_per_width = "one row per width";
+    one_row_per_rule = "gaps needed, one row per rule";
+    all_numbers = "all numbers";
     the_greatest_force_kn_comes(peak_force, width, sign) = " The greatest force at the widths computed, {peak_force} {kN}, is at a gap of {width} {mm}{sign}.";
     the_motion_reversed = " with the motion reversed";
     motion_reversed(motion) = "{motion}, reversed";
@@ -1009,6 +1010,7 @@ messages! {
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
     greatest_contact_force_and_number(dots, warning) = "Greatest contact force and number of impacts against the gap width, with all other gaps too wide to close. Dashed: the motion reversed.{dots} Jumps between adjacent points show that a slightly different gap leads to different impacts.{warning}";
+    forces_with_gaps_of_rules = "Greatest contact force with the gaps that rules require, if they are less than the gap needed: the larger force of the two signs of the motion. The option --curve 100 adds the force at 100 widths.";
     greatest_contact_force = "greatest contact force";
     gap_mm = "required gap [{mm}]";
     smallest = "÷ needed";
