@@ -12,8 +12,9 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
     for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
         for building in buildings {
             let parts = || building.parts.iter().filter(|part| part.kind == kind);
-            let force = |part: &PartSummary| part.force_max_n.max(-part.force_min_n);
-            let Some(worst) = parts().max_by(|a, b| force(a).total_cmp(&force(b))) else {
+            let pulled = parts().max_by(|a, b| a.force_max_n.total_cmp(&b.force_max_n));
+            let pressed = parts().min_by(|a, b| a.force_min_n.total_cmp(&b.force_min_n));
+            let (Some(pulled), Some(pressed)) = (pulled, pressed) else {
                 continue;
             };
             let dissipated: f64 = parts().map(|part| part.dissipated_j).sum();
@@ -24,14 +25,20 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             // Struts have no tension.
             let tension = match kind {
                 "infill" => String::new(),
-                _ => format!("{} of tension and ", FORCE.text(worst.force_max_n, 0)),
+                _ => {
+                    let tension = FORCE.text(pulled.force_max_n, 0);
+                    match pulled.name == pressed.name {
+                        true => format!("{tension} of tension and "),
+                        false => format!("{tension} of tension in {}, ", pulled.name),
+                    }
+                }
             };
             writeln!(
                 text,
                 "\n{noun} of {}: up to {tension}{} of compression in {}{spent}{}",
                 building.name,
-                FORCE.text(-worst.force_min_n, 0),
-                worst.name,
+                FORCE.text(-pressed.force_min_n, 0),
+                pressed.name,
                 buckled(&parts().collect::<Vec<_>>())
             )?;
             if kind == "infill" {

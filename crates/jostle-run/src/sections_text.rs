@@ -26,7 +26,7 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
         }
         writeln!(
             text,
-            "\nColumns of {}: bars yielded at {} of {}, concrete passed its strength at {}; {:.2} ‰ of compression in {}, under {} to {}",
+            "\nFibre sections of {}: bars yielded at {} of {}, concrete passed its strength at {}; {:.2} ‰ of compression in {}, under {} to {}",
             building.name,
             count(|own| own.yielded_s.is_some()),
             counted(all.len(), "end"),

@@ -9,7 +9,8 @@ use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::summary::{
-    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
+    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, ShearFailure,
+    Summary,
 };
 use jostle::separation::Requirements;
 use jostle_io::shown::{
@@ -526,6 +527,7 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
                     first.at,
                     first.failed_s
                 )?;
+                write_later_failures(text, &failures.list)?;
             }
             None => writeln!(
                 text,
@@ -536,6 +538,49 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
         between = "";
     }
     Ok(())
+}
+
+/// The columns that fail after the first, each once, with the instant.
+fn write_later_failures(text: &mut String, list: &[ShearFailure]) -> std::fmt::Result {
+    let mut later: Vec<&ShearFailure> = Vec::new();
+    for failure in list {
+        if later.iter().all(|known| known.column != failure.column) {
+            later.push(failure);
+        }
+    }
+    let Some(later) = later.get(1..).filter(|later| !later.is_empty()) else {
+        return Ok(());
+    };
+    let shown = later.iter().take(LISTED);
+    let shown: Vec<String> = shown
+        .map(|failure| format!("{} at {:.3} s", failure.column, failure.failed_s))
+        .collect();
+    let more = match later.len() > LISTED {
+        true => format!(", and {} more", later.len() - LISTED),
+        false => String::new(),
+    };
+    writeln!(text, "  then {}{more}", shown.join(", "))
+}
+
+/// The column that is nearest to its capacity among those that a neighbour strikes between floors.
+fn write_struck_column(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    let members = buildings.iter().flat_map(|building| &building.members);
+    let struck = members.filter_map(|member| {
+        let hardest = member.struck.iter().map(|point| point.peak_force_n);
+        let hardest = hardest.fold(0.0, f64::max);
+        let ratio = member.ratio.as_ref().filter(|_| hardest > 0.0)?;
+        let ratio = ratio.bending.max(ratio.shear.unwrap_or(0.0));
+        Some((member, ratio, hardest))
+    });
+    let Some((member, ratio, hardest)) = struck.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return Ok(());
+    };
+    writeln!(
+        text,
+        "  worst struck column: {} at {ratio:.2} × its capacity, struck with up to {}",
+        member.name,
+        FORCE.text(hardest, 0)
+    )
 }
 
 fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
@@ -601,6 +646,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
             }
         }
     }
+    write_struck_column(text, buildings)?;
     let (all, exceeded) = rated().fold((0, 0), |(all, exceeded), capacity| {
         (
             all + capacity.joints_rated,

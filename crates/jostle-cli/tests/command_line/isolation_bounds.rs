@@ -61,7 +61,7 @@ fn check_says_whether_columns_shorten_and_why() {
             4,
             square,
             "",
-            "columns axially rigid (default up to 3 times as high as wide or 10 storeys); 1.0 times as high as wide",
+            "columns axially rigid (default up to 3 times as high as wide and 10 storeys); 1.0 times as high as wide",
         ),
         (
             12,

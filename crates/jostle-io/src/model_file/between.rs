@@ -112,8 +112,8 @@ fn in_any_order(
         _ => {
             *reader.bad(
                 field,
-                "names a wall, which buildings with a plan cannot have yet",
-            ) = Some("name two buildings".into());
+                "names \"wall\", the wall at an end of a row of buildings without a plan",
+            ) = Some("name two buildings, or add [[wall]] with name, from and to, and give its name here".into());
             None
         }
     }

@@ -49,8 +49,12 @@ pub(super) fn read(
     prefix: &str,
     members: Option<&[ReinforcedMember]>,
 ) -> Option<Vec<Vec<ShearSpring>>> {
-    let all = frame.all_columns();
-    let columns = all.map(|([storey, line], section)| FailingColumn {
+    // Walls are no columns.
+    let all = || {
+        let columns = frame.all_columns();
+        columns.filter(|(place, _)| frame.wall(*place).is_none())
+    };
+    let columns = all().map(|([storey, line], section)| FailingColumn {
         words: format!("column {} of storey {}", line + 1, storey + 1),
         name: format!("{prefix}column.{}.{}", line + 1, storey + 1),
         storey,
@@ -70,7 +74,7 @@ pub(super) fn read(
         !prefix.is_empty(),
     )?;
     let mut rows = vec![vec![None; frame.lines()]; storeys];
-    for (([storey, line], _), spring) in frame.all_columns().zip(springs) {
+    for (([storey, line], _), spring) in all().zip(springs) {
         rows[storey][line] = Some(spring);
     }
     Some(filled(rows))
@@ -272,7 +276,7 @@ fn by_rule(
         let mut members = members.iter();
         let column = members.find(|member| member.name == own.name);
         let Some(column) = column.filter(|column| column.section.ties.is_some()) else {
-            *reader.bad(field, "needs bars and ties of every column") = Some(
+            *reader.bad(field, format!("needs bars and ties of every column, and {} has none", own.words)) = Some(
                 "add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 150 mm\" to column, or give strength and slope instead of rule"
                     .into(),
             );

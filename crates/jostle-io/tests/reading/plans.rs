@@ -251,7 +251,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
         ),
         (
             format!("{A}{B}[[gap]]\nbetween = [\"A\", \"wall\"]\nwidth = \"20 mm\"\n"),
-            "gap[0].between: names a wall, which buildings with a plan cannot have yet",
+            "gap[0].between: names \"wall\", the wall at an end of a row of buildings without a plan",
         ),
         (
             format!("{A}{B}{GAP}points = 1\n"),

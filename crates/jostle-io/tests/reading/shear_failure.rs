@@ -1,6 +1,7 @@
 //! `shear_failure`: from keys to shear springs of columns, and what is refused.
 
-use jostle::{Hinges, PlanAxis, ShearEnds, ShearSpring, Structure};
+use jostle::structure::SpringPlace;
+use jostle::{Hinges, PlanAxis, ShearEnds, ShearSpring, Structure, System};
 use jostle_testkit::files::{self, refusal, sound};
 
 const MODEL: &str = r#"
@@ -148,6 +149,40 @@ fn columns_struck_between_floors_have_a_spring_above_and_one_below() {
         let rows = read(&key, "", STRUCK).unwrap_or_else(|error| panic!("{error}"));
         assert!(rows.iter().flatten().all(|own| own.ends == due));
     }
+}
+
+/// A wall is no column: beside one, the other columns fail by the same strengths as without it, and the wall keeps its shear strength.
+#[test]
+fn columns_beside_a_wall_fail_by_their_rule() {
+    let failure = "shear_failure = { rule = \"sezen-moehle\", axial_first = \"axial-limit\" }\n";
+    let wall = "[[building.wall]]\nline = 2\nlength = \"2 m\"\nthickness = \"250 mm\"\n";
+    let rows = |wall: &str| {
+        let key = format!("{failure}axial = \"flexible\"\n{wall}");
+        let rows = read(&key, TIES, "\"common\"");
+        rows.unwrap_or_else(|error| panic!("{error}"))
+    };
+    let (alone, beside) = (rows(""), rows(wall));
+    for (alone, beside) in alone.iter().zip(&beside) {
+        for line in [0, 2] {
+            let [alone, beside] =
+                [alone, beside].map(|row| row[line].spring.backbone().yield_force());
+            close(beside, alone);
+        }
+    }
+    // Walls of the model take no shear spring.
+    let key = format!("{failure}axial = \"flexible\"\n{wall}");
+    let text = MODEL
+        .replace("HEIGHTS", "[\"4 m\", \"3.2 m\"]")
+        .replace("KEY", &key)
+        .replace("AXIAL", ", axial_load = \"1000 kN\"")
+        .replace("TIES", TIES)
+        .replace("FLOORS", "\"common\"");
+    let system = System::assemble(&sound(&text).model).expect("a sound model");
+    let places = &system.buildings[0].discretization.spring_places;
+    let failing = places
+        .iter()
+        .filter(|place| matches!(place, SpringPlace::Shear { .. }));
+    assert_eq!(failing.count(), 4, "{places:?}");
 }
 
 #[test]

@@ -18,22 +18,21 @@ pub(super) fn axial_of_columns(frame: &Frame, known: Option<[bool; 2]>) -> Strin
         true => "columns shorten under axial force",
         false => "columns axially rigid",
     };
-    let limit = format!(
-        "{} times as high as wide and {} storeys",
-        Frame::SLENDER,
-        Frame::TALL
-    );
+    let limit = |word: &str| {
+        let (slender, tall) = (Frame::SLENDER, Frame::TALL);
+        format!("{slender} times as high as wide {word} {tall} storeys")
+    };
     let why = match (known, frame.axial.columns_flexible, frame.tallness() > 1.0) {
         (Some([true, _]), ..) => ", as stated".to_owned(),
         (Some([false, _]), true, _) if !frame.walls.is_empty() => {
             ", the default of frames with walls".to_owned()
         }
-        (Some([false, _]), true, _) => format!(" (default above {limit})"),
+        (Some([false, _]), true, _) => format!(" (default above {})", limit("or")),
         (Some([false, true]), false, _) => {
             ": their foundation on soil neither rises nor sinks".to_owned()
         }
         (Some([false, false]), false, true) => ": no EA".to_owned(),
-        (Some([false, false]), false, false) => format!(" (default up to {limit})"),
+        (Some([false, false]), false, false) => format!(" (default up to {})", limit("and")),
         (None, ..) => String::new(),
     };
     if width > 0.0 {

@@ -465,7 +465,7 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
             None => &model.walls[side - last].name,
         });
         format!(
-            "of {} m finds no edges of \"{a}\" and \"{b}\" that face each other at a common floor, nor columns before an edge; check at and plan, or raise reach",
+            "of {} m finds no edges of \"{a}\" and \"{b}\" that face each other at a common floor (parallel within 0.1 rad), nor columns before such an edge; check at and plan, or raise reach",
             contact.reach
         )
     });
@@ -473,7 +473,7 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
         let problem = match both {
             true => "lies between floors on both sides; name a floor on one of them".to_owned(),
             false => format!(
-                "lies between floors, where no column stands within the common width of both buildings and reach = {} m; leave the point out, or check at, plan and reach",
+                "lies between floors, where no column stands within reach = {} m and the common width of two edges that are parallel within 0.1 rad; leave the point out, or check at, plan and reach",
                 contact.reach
             ),
         };

@@ -12,11 +12,14 @@ pub(super) fn rigid_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(frame.tallness(), || {
             let (height, width): (f64, f64) =
                 (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
+            let shape = match width > 0.0 {
+                true => format!("{:.1} times as high as wide", height / width),
+                false => "on a single column line".to_owned(),
+            };
             let text = format!(
-                "{}: {} storeys, {:.1} times as high as wide, with axially rigid columns: real columns shorten, which makes the building softer",
+                "{}: {} storeys, {shape}, with axially rigid columns: real columns shorten, which makes the building softer",
                 quoted(name),
                 frame.storey_heights.len(),
-                height / width
             );
             (name.to_owned(), text)
         });

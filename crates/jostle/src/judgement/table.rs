@@ -117,7 +117,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(1.0, Note)],
         sources: &[JUDGEMENT],
-        remedy: "leave out axial = \"rigid\"; columns given by EI need EA",
+        remedy: "give columns and walls that have EI also EA, and leave out axial = \"rigid\"",
         measure: second_order::rigid_columns,
     },
     Check {

@@ -343,9 +343,10 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
             let (tension, compression) = (end.axial_max_n, -end.axial_min_n);
             tally.add(tension / compression.max(1.0), || {
                 let text = format!(
-                    "{}: a column has {:.0} kN of tension",
+                    "{}: a column has {:.0} kN of tension and up to {:.0} kN of compression",
                     column.name,
-                    1e-3 * tension
+                    1e-3 * tension,
+                    1e-3 * compression.max(0.0)
                 );
                 (column.name.clone(), text)
             });
