@@ -446,7 +446,9 @@ class SpaceFrame(Part):
         hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:
             ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
-            the axial force and the moment about the other axis.
+            the axial force and the moment about the other axis. With ``{"rule": "surface", "length": "0.4 m", "exponent": 1.5}``
+            they yield on the interaction diagrams of both planes, or on ``"surface": {"axial": ["-6 MN", "-2 MN", "1 MN"],
+            "moment": ["0 kN.m", "500 kN.m", "0 kN.m"], "across": ["0 kN.m", "400 kN.m", "0 kN.m"]}``.
         joint: yielding connections between beams and columns: ``{"rotational_stiffness": "40 MN.m/rad", "hinge": {"rule":
             "bilinear", "yield":
             "180 kN.m", "post_yield": 0.03}}``, or such a table for each direction of beams, ``{"x": …, "y": …}``.

@@ -204,6 +204,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "See [Surfaces of axial force and moment](how-to/non-linear.md#surfaces).",
     ),
     (
+        Section::SpaceSurface,
+        "`hinges.surface` of columns of a space frame",
+        "See [Surfaces in space frames](how-to/space-frames.md#surfaces).",
+    ),
+    (
         Section::RigidEnds,
         "`rigid_ends` of a frame",
         "The same lengths at all joints. A number is a fraction of half depths: beams are rigid over half the depth of the deeper column at the joint, columns over half the depth of the deeper beam. Member forces and hinges are at the ends of the flexible lengths.",

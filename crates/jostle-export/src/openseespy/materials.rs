@@ -122,6 +122,7 @@ impl Materials {
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::InPlan { .. }) => Err(rule.name()),
         }
     }

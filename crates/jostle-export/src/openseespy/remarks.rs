@@ -27,6 +27,7 @@ impl Script<'_> {
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::InPlan { .. } => None,
         };
         let mut damped = false;

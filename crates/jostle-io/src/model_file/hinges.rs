@@ -43,7 +43,7 @@ pub(super) fn read_rule_at(
             None
         }
         Some(field) if field.as_text() == Some("surface") => {
-            *reader.bad(&field, "is a rule of columns of plane frames alone") =
+            *reader.bad(&field, "is a rule of columns alone") =
                 Some(format!("set {key} to one of {}", RULES.join(", ")));
             None
         }
@@ -184,7 +184,7 @@ pub(super) fn read_frame(
     let view = reader.open(field, &[Section::Hinges])?;
     let on_surface = surface_hinges::asked(reader, &view);
     if !on_surface {
-        surface_hinges::refuse(reader, &view);
+        surface_hinges::refuse(reader, &view, false);
     }
     let fibres = if on_surface {
         Some(surface_hinges::read(reader, field, &view, frame, members))
@@ -671,6 +671,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::MenegottoPinto(_)
         | HysteresisRule::Pendulums(_)
         | HysteresisRule::Surface { .. }
+        | HysteresisRule::SpaceSurface { .. }
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,
             yielding: yielding?,

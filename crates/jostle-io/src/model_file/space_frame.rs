@@ -364,7 +364,7 @@ fn add_diagonals(
     masses
 }
 
-/// Gives columns the fibres of their sections.
+/// Gives columns the fibres or the surfaces of their sections.
 fn add_fibres(
     reader: &mut Reader<'_>,
     view: &View<'_>,
@@ -373,13 +373,37 @@ fn add_fibres(
     frame: &mut SpaceFrame,
     storey_heights: &[f64],
 ) {
-    let (Some(asked), Some(field)) = (&hinges.fibres, reader.get(view, "hinges")) else {
+    let Some(field) = reader.get(view, "hinges") else {
         return;
     };
     let places = frame.members.iter().map(|member| member.place);
     let is_wall = |place: &SpacePlace| frame.walls.iter().any(|wall| wall.has(*place));
     let columns = places.filter(|place| matches!(place, SpacePlace::Column { .. }));
     let columns: Vec<SpacePlace> = columns.filter(|place| !is_wall(place)).collect();
+    if let Some(asked) = &hinges.surfaces {
+        for place in columns {
+            let members = frame.members.iter();
+            let member = { members }.find(|member| member.place == place);
+            let Some(member) = member.filter(|_| asked.stand_in(place.storey())) else {
+                continue;
+            };
+            let height = frame.clear_length(place, storey_heights);
+            let section = sections.get(&place).map(|own| &own.section);
+            match asked.of_column(&member.section, section, height) {
+                Ok(column) => {
+                    frame.fibres.insert(place, column);
+                }
+                Err([problem, remedy]) => {
+                    *reader.bad(&field, format!("{place}: {problem}")) = Some(remedy);
+                    return;
+                }
+            }
+        }
+        return;
+    }
+    let Some(asked) = &hinges.fibres else {
+        return;
+    };
     if columns.iter().any(|place| !sections.contains_key(place)) {
         let with_bars = |place| sections.contains_key(place);
         fibre_hinges::say_without_bars(reader, &field, !columns.iter().any(with_bars));
@@ -413,7 +437,7 @@ fn add_hinges(
 ) {
     let none_of_its_own = own_moments.iter().all(Option::is_none);
     if hinges.is_empty()
-        && hinges.fibres.is_none()
+        && !hinges.follows_axial_force()
         && none_of_its_own
         && let Some(field) = reader.get(view, "hinges")
     {

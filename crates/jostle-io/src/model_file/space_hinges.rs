@@ -6,6 +6,7 @@ use jostle::{PlanAxis, SpaceSection};
 use super::building::has_length;
 use super::fibre_hinges::{self, AskedFibres};
 use super::hinges::{Initial, note, read_initial, read_moments, read_rule, read_rule_at};
+use super::surface_hinges::{self, AskedSurfaces};
 use crate::keys::Section;
 use crate::reader::{Field, Reader, View};
 
@@ -21,6 +22,8 @@ pub(super) struct SpaceHinges<'n> {
     beams: Vec<Moments<'n>>,
     /// How columns are cut into fibres, if they are.
     pub(super) fibres: Option<AskedFibres>,
+    /// How columns yield on surfaces, if they do.
+    pub(super) surfaces: Option<AskedSurfaces>,
 }
 
 /// Keys that hinges of frames in one plane have, and those of a space frame have not.
@@ -45,25 +48,30 @@ impl<'n> SpaceHinges<'n> {
             }
         }
         let of_fibres = fibre_hinges::asked(reader, &view);
-        let (rule, fibres) = match of_fibres {
-            true => {
-                if let Some(field) = reader.get(&view, "column") {
-                    fibre_hinges::say_either(reader, &field, "fibre");
-                }
-                let rule = match view.has("beam_rule") {
-                    true => read_rule_at(reader, &view, "beam_rule"),
-                    false => Some(HysteresisRule::PeakOriented),
-                };
-                (rule, AskedFibres::read(reader, &view, true))
-            }
-            false => {
-                fibre_hinges::refuse(reader, &view);
-                (read_rule(reader, &view), None)
-            }
-        };
-        if of_fibres && fibres.is_none() {
-            return None;
+        let of_surfaces = surface_hinges::asked(reader, &view);
+        if !of_surfaces {
+            surface_hinges::refuse(reader, &view, true);
         }
+        let rule = if of_fibres || of_surfaces {
+            if let Some(field) = reader.get(&view, "column") {
+                fibre_hinges::say_either(reader, &field, name_of(of_fibres));
+            }
+            match view.has("beam_rule") {
+                true => read_rule_at(reader, &view, "beam_rule"),
+                false => Some(HysteresisRule::PeakOriented),
+            }
+        } else {
+            fibre_hinges::refuse(reader, &view);
+            read_rule(reader, &view)
+        };
+        let fibres = match of_fibres {
+            true => Some(AskedFibres::read(reader, &view, true)?),
+            false => None,
+        };
+        let surfaces = match of_surfaces {
+            true => Some(AskedSurfaces::read(reader, &view)?),
+            false => None,
+        };
         let initial = read_initial(reader, &view);
         let [columns, beams] = ["column", "beam"].map(|key| {
             let Some(field) = reader.get(&view, key) else {
@@ -87,7 +95,13 @@ impl<'n> SpaceHinges<'n> {
             columns: columns?,
             beams: beams?,
             fibres,
+            surfaces,
         })
+    }
+
+    /// Whether ends of columns follow their axial force.
+    pub(super) fn follows_axial_force(&self) -> bool {
+        self.fibres.is_some() || self.surfaces.is_some()
     }
 
     /// Whether no member has moments here.
@@ -102,8 +116,8 @@ impl<'n> SpaceHinges<'n> {
         field: &Field<'n>,
         is_column: bool,
     ) -> Option<Moments<'n>> {
-        if is_column && self.fibres.is_some() {
-            fibre_hinges::say_either(reader, field, "fibre");
+        if is_column && self.follows_axial_force() {
+            fibre_hinges::say_either(reader, field, name_of(self.fibres.is_some()));
             return None;
         }
         let rigid = self.initial == Initial::Rigid;
@@ -157,6 +171,14 @@ impl<'n> SpaceHinges<'n> {
             }
         }
         Ok(found)
+    }
+}
+
+/// The rule of columns that follow their axial force.
+fn name_of(of_fibres: bool) -> &'static str {
+    match of_fibres {
+        true => "fibre",
+        false => "surface",
     }
 }
 

@@ -198,6 +198,17 @@ wall = [{ along = "x", x = 1, length = 1, thickness = 0.2, steel = "HRB400", bar
 rigid_ends = { beams = 1 }
 hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 } }
 [[building]]
+kind = "space-frame"
+storeys = 1
+mass = 1
+elastic_modulus = 3e10
+lines_x = [0, 6]
+lines_y = [0, 5]
+column = { size = [1, 1] }
+beam_x = { width = 1, depth = 1 }
+beam_y = { width = 1, depth = 1 }
+hinges = { rule = "surface", length = 1, surface = { axial = [-1, 0, 1], moment = [0, 1, 0], across = [0, 1, 0] } }
+[[building]]
 kind = "frame"
 shear_failure = { strength = 1 }
 column = { profile = { depth = 1 }, axis = "weak" }

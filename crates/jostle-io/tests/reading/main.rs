@@ -36,6 +36,7 @@ mod soil;
 mod soil_springs;
 mod space_fibres;
 mod space_frames;
+mod space_surfaces;
 mod space_wall_fibres;
 mod study_files;
 mod tables;

@@ -77,22 +77,30 @@ fn fibres<'a>(
 ) -> String {
     let ends = |fibres: &ColumnFibres| fibres.at_ends.into_iter().filter(|stands| *stands).count();
     let count: usize = all.map(ends).sum();
-    if let Some(corners) = first.corners() {
+    let surface = first.corners();
+    if let [corners, ..] = &surface[..] {
         let largest = |least: [f64; 2], corner: &[f64; 2]| {
             if corner[1] > least[1] { *corner } else { least }
         };
-        let [force, moment] = corners.iter().fold([0.0; 2], largest);
+        let greatest = surface.iter().map(|corners| {
+            let [force, moment] = corners.iter().fold([0.0; 2], largest);
+            let (moment, force) = (MOMENT.text(moment, 1), FORCE.text(-force, 0));
+            format!("{moment} under {force}")
+        });
+        let greatest = match &greatest.collect::<Vec<_>>()[..] {
+            [along, across] => format!("{along} along x and {across} along y"),
+            all => all.concat(),
+        };
         let ends = [corners.first(), corners.last()];
         let [compression, tension] = ends.map(|end| end.map_or(0.0, |end| end[0]));
         return format!(
-            "surfaces of axial force and moment at {} of columns; {first_of}: {} over {}, {} of compression to {} of tension, up to {} under {}",
+            "surfaces of axial force and moment at {} of columns; {first_of}: {} over {}, {} of compression to {} of tension, up to {}",
             counted(count, "end"),
             counted(corners.len(), "corner"),
             HEIGHT.text(first.length, 3),
             FORCE.text(-compression, 0),
             FORCE.text(tension, 0),
-            MOMENT.text(moment, 1),
-            FORCE.text(-force, 0),
+            greatest,
         );
     }
     let ([concrete, steel], layers) =

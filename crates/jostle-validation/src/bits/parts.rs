@@ -222,6 +222,24 @@ law = "kelvin-no-tension"
 stiffness = "400 MN/m"
 "#;
 
+const ON_SURFACES_IN_SPACE: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.8 g", duration = "2.5 s", across = { record = "el-centro-1940-ns", pga = "0.6 g", duration = "2.5 s" } }
+[[building]]
+name = "S"
+kind = "space-frame"
+storeys = 2
+storey_height = "3 m"
+lines_x = [0, 4]
+lines_y = [0, 5]
+elastic_modulus = "30 GPa"
+mass = "80 t"
+column = { size = ["450 mm", "350 mm"], concrete = "C30", steel = "HRB400", bars = "8 d20" }
+beam_x = { width = "300 mm", depth = "500 mm" }
+beam_y = { width = "300 mm", depth = "500 mm" }
+gravity = true
+hinges = { rule = "surface", length = "0.3 m", post_yield = 0.02 }
+"#;
+
 const FAILING_IN_SPACE: &str = r#"
 motion = { record = "el-centro-1940-ns", pga = "0.6 g", duration = "2.5 s", angle = "25 deg" }
 [[building]]
@@ -254,6 +272,7 @@ pub(super) fn models() -> Vec<Pinned> {
         ("lifting", LIFTING),
         ("fibres in space", FIBRED_IN_SPACE),
         ("walls of fibres in space", FIBRED_WALL_IN_SPACE),
+        ("surfaces in space", ON_SURFACES_IN_SPACE),
         ("shear, connections and braces in space", FAILING_IN_SPACE),
         ("panels", PANELLED),
         ("pendulums", ON_PENDULUMS),

@@ -39,10 +39,10 @@ mod rule;
 mod sliders;
 mod stages_in_plan;
 mod surface;
+mod surface_in_space;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
 pub use buckling::{Buckling, BucklingBrace};
-pub(crate) use circular::PlanAnswer;
 pub use circular::{CircularLaw, ForceRow};
 pub use concrete::ConcreteFall;
 pub use failing::FallingBranch;
@@ -54,3 +54,4 @@ pub use pinched::{GREATEST_DAMAGE, Pinching, energy_to_yield};
 pub use rule::{DEFAULT_TAKEDA_EXPONENT, Hysteresis, HysteresisRule};
 pub(crate) use surface::{Flow, Surface};
 pub use surface::{KeptCorners, MOST_CORNERS};
+pub(crate) use surface_in_space::{SpaceFlow, SpaceSurface, stated_in_space};

@@ -85,6 +85,15 @@ pub enum HysteresisRule {
         /// Corners of the surface that it keeps.
         corners: KeptCorners,
     },
+    /// The same of axial force and both moments; [`Hysteresis::surface_in_space`] makes all six.
+    SpaceSurface {
+        /// Which row, from 0.
+        row: usize,
+        /// Corners of the surface that it keeps, of the plane along x in the first three rows and of that across in the others.
+        corners: KeptCorners,
+        /// Exponent between both planes \[–\].
+        exponent: f64,
+    },
 }
 
 impl HysteresisRule {
@@ -139,6 +148,7 @@ impl HysteresisRule {
             | Self::MenegottoPinto(_)
             | Self::Pendulums(_)
             | Self::Surface { .. }
+            | Self::SpaceSurface { .. }
             | Self::InPlan { .. } => false,
         }
     }
@@ -162,7 +172,7 @@ impl HysteresisRule {
             Self::Concrete(_) => "concrete",
             Self::MenegottoPinto(_) => "menegotto-pinto",
             Self::Pendulums(_) => "pendulums",
-            Self::Surface { .. } => "surface",
+            Self::Surface { .. } | Self::SpaceSurface { .. } => "surface",
             Self::InPlan { law, .. } => match law {
                 CircularLaw::Slider | CircularLaw::Friction { .. } | CircularLaw::Pendulums(_) => {
                     "friction in plan"
@@ -386,7 +396,8 @@ impl Hysteresis {
             | HysteresisRule::Surface {
                 row: ForceRow::Between,
                 ..
-            } => 0.0,
+            }
+            | HysteresisRule::SpaceSurface { row: 3.., .. } => 0.0,
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
             | HysteresisRule::Normal
@@ -402,6 +413,7 @@ impl Hysteresis {
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
         }
     }
@@ -505,7 +517,7 @@ impl Hysteresis {
                 pendulums::respond(&self.backbone, &stages, memory, deformation)
             }
             HysteresisRule::InPlan { row, .. } => self.on_a_line(row, memory, deformation),
-            HysteresisRule::Surface { .. } => {
+            HysteresisRule::Surface { .. } | HysteresisRule::SpaceSurface { .. } => {
                 let force = memory.force + self.initial_tangent() * change;
                 Response {
                     force,
@@ -585,6 +597,7 @@ impl Hysteresis {
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::InPlan { .. } => {
                 self.on_the_line(memory, deformation).unwrap_or_else(|| {
                     let response = self.respond(memory, deformation);
@@ -627,6 +640,7 @@ impl Hysteresis {
             HysteresisRule::Sliding { .. }
             | HysteresisRule::Concrete(_)
             | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::InPlan { .. } => {
                 let side = Side::from_change(deformation - memory.deformation);
                 memory.stand_at(deformation, force, side);
@@ -691,7 +705,8 @@ impl Hysteresis {
             | HysteresisRule::Surface {
                 row: ForceRow::Between,
                 ..
-            } => 0.0,
+            }
+            | HysteresisRule::SpaceSurface { row: 3.., .. } => 0.0,
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
             | HysteresisRule::Normal
@@ -702,6 +717,7 @@ impl Hysteresis {
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
@@ -781,9 +797,9 @@ impl Hysteresis {
             HysteresisRule::Pendulums(stages) => {
                 pendulums::next_corner(&self.backbone, &stages, memory, towards)
             }
-            HysteresisRule::InPlan { .. } | HysteresisRule::Surface { .. } => {
-                towards.sign() * f64::INFINITY
-            }
+            HysteresisRule::InPlan { .. }
+            | HysteresisRule::Surface { .. }
+            | HysteresisRule::SpaceSurface { .. } => towards.sign() * f64::INFINITY,
         }
     }
 
@@ -815,8 +831,13 @@ impl Hysteresis {
         ) {
             return Stage::Uncracked;
         }
-        if let HysteresisRule::Surface { row, .. } = self.rule {
-            return if row != ForceRow::Between && self.has_flowed(memory) {
+        let has_force = match self.rule {
+            HysteresisRule::Surface { row, .. } => Some(row != ForceRow::Between),
+            HysteresisRule::SpaceSurface { row, .. } => Some(row < 3),
+            _ => None,
+        };
+        if let Some(has_force) = has_force {
+            return if has_force && self.has_flowed(memory) {
                 Stage::Yielded
             } else {
                 Stage::Uncracked

@@ -18,7 +18,7 @@ use super::memory::HysteresisMemory;
 use super::rule::{Hysteresis, HysteresisRule};
 
 /// Corners that a row keeps.
-const KEPT: usize = 4;
+pub(super) const KEPT: usize = 4;
 
 /// Most corners of a surface on the side of positive moments, those without moment included.
 pub const MOST_CORNERS: usize = 3 * KEPT;
@@ -72,26 +72,19 @@ impl Hysteresis {
         corners: &[[f64; 2]],
         post_yield: f64,
     ) -> Result<([Self; 3], f64), Vec<SpringFault>> {
-        let refuse = |problem: String| {
-            Err(vec![SpringFault {
-                quantity: Quantity::Rule,
-                side: None,
-                problem,
-            }])
-        };
         let [axial, bending] = stiffness;
         if !(axial > 0.0 && bending > 0.0 && axial.is_finite() && bending.is_finite()) {
-            return refuse(format!(
+            return refused(format!(
                 "needs stiffnesses above zero, found {axial} N/m and {bending} N·m/rad"
             ));
         }
         if !(0.0..1.0).contains(&post_yield) {
-            return refuse(format!(
+            return refused(format!(
                 "must keep at least 0 and less than 1 of its stiffness after yield, found {post_yield}"
             ));
         }
         if let Some(problem) = fault_of(corners) {
-            return refuse(problem);
+            return refused(problem);
         }
         let radius = libm::sqrt(bending / axial);
         let scaled = |[force, moment]: [f64; 2]| [force, moment / radius];
@@ -122,7 +115,10 @@ impl Hysteresis {
     /// Whether it is a row of a section that yields on a surface.
     #[must_use]
     pub fn is_on_surface(&self) -> bool {
-        matches!(self.rule, HysteresisRule::Surface { .. })
+        matches!(
+            self.rule,
+            HysteresisRule::Surface { .. } | HysteresisRule::SpaceSurface { .. }
+        )
     }
 
     /// Whether it is the first of the three.
@@ -143,8 +139,17 @@ impl Hysteresis {
     }
 }
 
+/// A surface that is refused.
+pub(super) fn refused<T>(problem: String) -> Result<T, Vec<SpringFault>> {
+    Err(vec![SpringFault {
+        quantity: Quantity::Rule,
+        side: None,
+        problem,
+    }])
+}
+
 /// What is wrong with the corners of a surface.
-fn fault_of(corners: &[[f64; 2]]) -> Option<String> {
+pub(super) fn fault_of(corners: &[[f64; 2]]) -> Option<String> {
     let count = corners.len();
     if !(3..=MOST_CORNERS).contains(&count) {
         return Some(format!(

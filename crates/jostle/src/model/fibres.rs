@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::PlanPoint;
-use crate::hysteresis::{Hysteresis, Side, SpringFault, Surface};
+use crate::hysteresis::{Hysteresis, Side, SpringFault, Surface, stated_in_space};
 
 /// Lengths at the ends of a column in which fibres stretch and bend together, so that what a section can bear follows its axial force
 /// and, in space, its moment about the other axis: a hinge without length that also stretches.
@@ -81,14 +81,57 @@ impl ColumnFibres {
         })
     }
 
-    /// Axial forces, positive in tension, and moments at the corners of its surface; `None` for fibres \[N, N·m\].
-    #[must_use]
-    pub fn corners(&self) -> Option<Vec<[f64; 2]>> {
-        let [x, y, between] = &self.fibres[..] else {
-            return None;
+    /// The same of a column in space, whose axial force and both moments are bounded together: its fibres are the six rows of
+    /// [`Hysteresis::surface_in_space`], of which three stand about the axis.
+    ///
+    /// ```
+    /// use jostle::ColumnFibres;
+    ///
+    /// let stiffness = [7.5e9 / 0.4, 156e6 / 0.4, 100e6 / 0.4];
+    /// let along = [[-6e6, 0.0], [-2e6, 0.5e6], [1.2e6, 0.0]];
+    /// let across = [[-6e6, 0.0], [-2e6, 0.4e6], [1.2e6, 0.0]];
+    /// let own = ColumnFibres::on_surface_in_space(0.4, [true, true], stiffness, [&along, &across], 1.5, 0.01);
+    /// assert_eq!(own.expect("sound").corners().len(), 2);
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Hysteresis::surface_in_space`].
+    pub fn on_surface_in_space(
+        length: f64,
+        at_ends: [bool; 2],
+        stiffness: [f64; 3],
+        corners: [&[[f64; 2]]; 2],
+        exponent: f64,
+        post_yield: f64,
+    ) -> Result<Self, Vec<SpringFault>> {
+        let (rows, points) =
+            Hysteresis::surface_in_space(stiffness, corners, exponent, post_yield)?;
+        let places = points.into_iter().chain([[0.0; 2]; 3]);
+        let fibre = |(spring, at)| Fibre {
+            at,
+            spring,
+            material: FibreMaterial::Section,
         };
-        let rows = [x, y, between].map(|fibre| &fibre.spring);
-        Some(Surface::of(rows)?.stated(x.at[0]))
+        Ok(Self {
+            length,
+            at_ends,
+            fibres: rows.into_iter().zip(places).map(fibre).collect(),
+            limits: BTreeMap::new(),
+        })
+    }
+
+    /// Axial forces, positive in tension, and moments at the corners of its surface, in space of both planes of bending; empty for fibres
+    /// \[N, N·m\].
+    #[must_use]
+    pub fn corners(&self) -> Vec<Vec<[f64; 2]>> {
+        let springs = self.fibres.iter().map(|fibre| &fibre.spring);
+        if let [x, y, between] = &self.fibres[..] {
+            let rows = [x, y, between].map(|fibre| &fibre.spring);
+            let stated = Surface::of(rows).map(|law| law.stated(x.at[0]));
+            return stated.into_iter().collect();
+        }
+        let points = [0, 1].map(|point| self.fibres.get(point).map_or([0.0; 2], |own| own.at));
+        stated_in_space(springs, points).map_or_else(Vec::new, Vec::from)
     }
 
     /// Whether a surface bounds its axial force and moment.

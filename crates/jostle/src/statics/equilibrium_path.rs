@@ -1,7 +1,11 @@
 //! Equilibrium path of a building from corner to corner, under a growing load or a prescribed displacement.
 
+use std::sync::Arc;
+
 use super::Settled;
-use crate::hysteresis::{Flow, Hysteresis, HysteresisMemory, Side, Surface};
+use crate::hysteresis::{
+    Flow, Hysteresis, HysteresisMemory, Side, SpaceFlow, SpaceSurface, Surface,
+};
 use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::stiffness::DirectStiffness;
 use crate::structure::{AssembledBuilding, StepEquations, YieldingSpring};
@@ -65,44 +69,123 @@ pub struct EquilibriumPath<E: StepEquations = RiccatiSweep> {
 /// A section that yields on a surface.
 #[derive(Clone, Debug)]
 struct PathSurface {
-    /// The first of its three rows among the springs.
+    /// The first of its rows among the springs.
     first: usize,
-    law: Surface,
-    /// How it gives.
-    flow: Flow,
+    law: PathLaw,
+}
+
+/// Its law, and how it gives.
+#[derive(Clone, Debug)]
+enum PathLaw {
+    Plane(Surface, Flow),
+    Space(Arc<SpaceSurface>, SpaceFlow),
 }
 
 impl PathSurface {
     /// All of a list of springs.
     fn all(springs: &[PathSpring]) -> Vec<Self> {
-        let rows = springs.windows(3).enumerate();
-        let laws = rows.filter_map(|(first, rows)| {
-            let rows = [0, 1, 2].map(|row| &rows[row].hysteresis);
+        let law = |first: usize| {
+            if let Some(law) = &springs[first].surface {
+                return Some(PathLaw::Space(law.clone(), SpaceFlow::ELASTIC));
+            }
+            let [x, y, between] = springs.get(first..first + 3)? else {
+                return None;
+            };
+            let rows = [x, y, between].map(|row| &row.hysteresis);
             let law = Surface::of(rows).filter(|_| rows[0].starts_surface())?;
+            Some(PathLaw::Plane(law, Flow::Elastic))
+        };
+        let surface = |first| {
             Some(Self {
                 first,
-                law,
-                flow: Flow::Elastic,
+                law: law(first)?,
             })
-        });
-        laws.collect()
+        };
+        (0..springs.len()).filter_map(surface).collect()
     }
 
-    /// States of its points.
-    fn points<'a>(&self, memories: &'a [HysteresisMemory]) -> [&'a HysteresisMemory; 2] {
-        [&memories[self.first], &memories[self.first + 1]]
+    /// What its points have of a list of all springs; two of three in a plane.
+    fn points<'a, T>(&self, all: &'a [T]) -> [&'a T; 3] {
+        [0, 1, 2].map(|point| &all[self.first + point])
     }
 
-    /// What its points have of a list of all springs.
-    fn of(&self, values: &[f64]) -> [f64; 2] {
-        [values[self.first], values[self.first + 1]]
+    /// Number of its points.
+    fn count(&self) -> usize {
+        match self.law {
+            PathLaw::Plane(..) => 2,
+            PathLaw::Space(..) => 3,
+        }
+    }
+
+    /// Lets it be elastic.
+    fn stiffen(&mut self) {
+        match &mut self.law {
+            PathLaw::Plane(_, flow) => *flow = Flow::Elastic,
+            PathLaw::Space(_, flow) => *flow = SpaceFlow::ELASTIC,
+        }
+    }
+
+    /// Lets it give as it does at these rates; whether that is another way.
+    fn turn(&mut self, memories: &[HysteresisMemory], rates: &[f64]) -> bool {
+        let (points, rates) = (self.points(memories), self.points(rates).map(|rate| *rate));
+        match &mut self.law {
+            PathLaw::Plane(law, flow) => {
+                let [x, y, _] = points;
+                let next = law.flow([x, y], [rates[0], rates[1]]);
+                let turns = next != *flow;
+                *flow = next;
+                turns
+            }
+            PathLaw::Space(law, flow) => {
+                let next = law.flow(points, rates);
+                let turns = !next.is_as(flow);
+                if turns {
+                    *flow = next;
+                }
+                turns
+            }
+        }
+    }
+
+    /// Whether it stands on its surface.
+    fn is_reached(&self, memories: &[HysteresisMemory]) -> bool {
+        let points = self.points(memories);
+        match &self.law {
+            PathLaw::Plane(law, _) => law.is_reached([points[0], points[1]]),
+            PathLaw::Space(law, _) => law.is_reached(points),
+        }
+    }
+
+    /// Time until the next edge or plane.
+    fn time(&self, memories: &[HysteresisMemory], rates: &[f64]) -> f64 {
+        let (points, rates) = (self.points(memories), self.points(rates).map(|rate| *rate));
+        match &self.law {
+            PathLaw::Plane(law, flow) => {
+                law.time_to_edge([points[0], points[1]], [rates[0], rates[1]], *flow)
+            }
+            PathLaw::Space(law, flow) => law.time_to_plane(points, rates, flow),
+        }
+    }
+
+    /// Forces of its points at displacements.
+    fn answer(&self, memories: &[HysteresisMemory], to: [f64; 3]) -> [f64; 3] {
+        let points = self.points(memories);
+        match &self.law {
+            PathLaw::Plane(law, _) => {
+                let [x, y] = law.answer([points[0], points[1]], [to[0], to[1]]).force;
+                [x, y, 0.0]
+            }
+            PathLaw::Space(law, _) => law.answer(points, to).force,
+        }
     }
 
     /// Writes its slopes into a list of all springs.
     fn lay_slopes(&self, ahead: &mut [[f64; 2]]) {
         let rows = ahead[self.first..].iter_mut();
-        for (ahead, tangent) in rows.zip(self.law.tangents(self.flow)) {
-            *ahead = [tangent; 2];
+        let lay = |(ahead, tangent): (&mut [f64; 2], f64)| *ahead = [tangent; 2];
+        match &self.law {
+            PathLaw::Plane(law, flow) => rows.zip(law.tangents(*flow)).for_each(lay),
+            PathLaw::Space(law, flow) => rows.zip(law.tangents(flow)).for_each(lay),
         }
     }
 }
@@ -113,6 +196,8 @@ struct PathSpring {
     /// Its deformation.
     row: Row,
     hysteresis: Hysteresis,
+    /// That of a section in space of which it is the first row.
+    surface: Option<Arc<SpaceSurface>>,
 }
 
 impl From<&YieldingSpring> for PathSpring {
@@ -120,6 +205,7 @@ impl From<&YieldingSpring> for PathSpring {
         Self {
             row: spring.row.clone(),
             hysteresis: spring.hysteresis,
+            surface: spring.surface.clone(),
         }
     }
 }
@@ -178,6 +264,7 @@ impl EquilibriumPath<DirectStiffness> {
             Some(PathSpring {
                 row: link.shortening.clone(),
                 hysteresis: link.spring?,
+                surface: None,
             })
         });
         let links: Vec<PathSpring> = links.collect();
@@ -227,7 +314,7 @@ impl<E: StepEquations> EquilibriumPath<E> {
     pub fn is_on_surface(&self, spring: usize) -> bool {
         let mut surfaces = self.surfaces.iter();
         let surface = surfaces.find(|surface| surface.first == spring);
-        surface.is_some_and(|surface| surface.law.is_reached(surface.points(&self.memories)))
+        surface.is_some_and(|surface| surface.is_reached(&self.memories))
     }
 
     /// λ now.
@@ -288,7 +375,7 @@ impl<E: StepEquations> EquilibriumPath<E> {
                     };
                 }
                 for surface in &mut self.surfaces {
-                    surface.flow = Flow::Elastic;
+                    surface.stiffen();
                     surface.lay_slopes(&mut self.ahead);
                 }
                 self.factorize()?;
@@ -326,14 +413,10 @@ impl<E: StepEquations> EquilibriumPath<E> {
                 if one_by_one && !settled {
                     break;
                 }
-                let rates = surface.of(&self.spring_rates);
-                let moves = rates.iter().any(|rate| rate.abs() > STILL * fastest);
-                let flow = match moves {
-                    true => surface.law.flow(surface.points(&self.memories), rates),
-                    false => surface.flow,
-                };
-                if flow != surface.flow {
-                    surface.flow = flow;
+                let rates = surface.points(&self.spring_rates);
+                let mut rates = rates.into_iter().take(surface.count());
+                let moves = rates.any(|rate| rate.abs() > STILL * fastest);
+                if moves && surface.turn(&self.memories, &self.spring_rates) {
                     surface.lay_slopes(&mut self.ahead);
                     settled = false;
                 }
@@ -380,20 +463,18 @@ impl<E: StepEquations> EquilibriumPath<E> {
             }
         }
         for surface in &self.surfaces {
-            let rates = surface.of(&self.spring_rates);
-            let points = surface.points(&self.memories);
-            length = length.min(surface.law.time_to_edge(points, rates, surface.flow));
+            length = length.min(surface.time(&self.memories, &self.spring_rates));
         }
         let mut corners = Vec::new();
         for surface in &self.surfaces {
-            let rates = surface.of(&self.spring_rates);
-            let points = surface.points(&self.memories);
-            if length >= surface.law.time_to_edge(points, rates, surface.flow) {
+            if length >= surface.time(&self.memories, &self.spring_rates) {
                 corners.push(surface.first);
             }
-            let to = [0, 1].map(|point| points[point].deformation() + length * rates[point]);
-            let force = surface.law.answer(points, to).force;
-            for (point, row) in (surface.first..).take(2).enumerate() {
+            let points = surface.points(&self.memories);
+            let rates = surface.points(&self.spring_rates);
+            let to = [0, 1, 2].map(|point| points[point].deformation() + length * rates[point]);
+            let force = surface.answer(&self.memories, to);
+            for (point, row) in (surface.first..).take(surface.count()).enumerate() {
                 let law = &self.springs[row].hysteresis;
                 law.commit(&mut self.memories[row], to[point], force[point]);
             }
@@ -509,6 +590,7 @@ fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
         hysteresis: Hysteresis::elastic(stiffness).ok()?,
         damped_by_tangent: false,
         in_base_shear: 0.0,
+        surface: None,
     })
 }
 

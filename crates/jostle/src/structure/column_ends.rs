@@ -9,7 +9,6 @@ use super::element::{THETA, Y, over_nodes};
 use super::member_forces::MemberPlace;
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, StickModel, YieldingElement};
-use crate::hysteresis::HysteresisRule;
 use crate::linear::Row;
 use crate::model::{ColumnFibres, Fibre, FibreLimit, ProportionalDamping};
 
@@ -52,15 +51,15 @@ impl FibreSection {
         let (member, end, point) = (self.member, self.end, self.point);
         let frame = self.frame.map(|frame| frame + 1);
         let fibres = self.fibres.iter().enumerate();
-        fibres.map(move |(number, fibre)| match fibre.spring.rule() {
-            HysteresisRule::Surface { row, .. } => SpringPlace::Surface {
+        fibres.map(move |(number, fibre)| match fibre.spring.is_on_surface() {
+            true => SpringPlace::Surface {
                 frame,
                 member,
                 end,
                 point,
-                row,
+                row: number + 1,
             },
-            _ => SpringPlace::Fibre {
+            false => SpringPlace::Fibre {
                 frame,
                 member,
                 end,
@@ -114,7 +113,7 @@ impl StickModel {
     }
 
     /// Adds fibres over an elongation and the rotations beside it: each is a spring over v + Σ x θ. Of a section that yields on a surface
-    /// the last row is the difference of the others.
+    /// the rows behind its points are differences of these.
     pub(super) fn add_section(
         &mut self,
         fibres: &ColumnFibres,
@@ -134,18 +133,23 @@ impl StickModel {
                 proportional_damping: ProportionalDamping::None,
             }
         });
-        let springs: Vec<YieldingElement> = springs.collect();
-        let (first, list) = match <[YieldingElement; 3]>::try_from(springs) {
-            Ok([x, y, mut between]) if fibres.is_surface() => {
-                between.row = x.row.clone();
-                between.row.add_times(-1.0, &y.row);
-                self.surfaces.push([x, y, between]);
-                (3 * (self.surfaces.len() - 1), Vec::new())
-            }
-            Ok(three) => (self.yielding.len(), three.to_vec()),
-            Err(list) => (self.yielding.len(), list),
+        let mut springs: Vec<YieldingElement> = springs.collect();
+        let list = match fibres.is_surface() {
+            true => &mut self.surfaces,
+            false => &mut self.yielding,
         };
-        self.yielding.extend(list);
+        if fibres.is_surface() {
+            // Two points and a difference, or three of each.
+            let points = springs.len().div_ceil(2);
+            for difference in points..springs.len() {
+                let from = difference - points;
+                let mut row = springs[from].row.clone();
+                row.add_times(-1.0, &springs[(from + 1) % points].row);
+                springs[difference].row = row;
+            }
+        }
+        let first = list.len();
+        list.extend(springs);
         FibreSection {
             frame: None,
             member,

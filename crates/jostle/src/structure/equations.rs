@@ -1,6 +1,8 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
-use crate::hysteresis::{Hysteresis, HysteresisMemory};
+use std::sync::Arc;
+
+use crate::hysteresis::{Hysteresis, HysteresisMemory, SpaceSurface};
 use crate::linear::{Row, SparseSymmetric};
 use crate::model::{ProportionalDamping, STANDARD_GRAVITY};
 use crate::motion::Ground;
@@ -39,10 +41,10 @@ pub struct Equations {
     /// C′: base dashpots.
     pub dashpots: SparseSymmetric,
     /// Springs that yield: hinges first, then storey springs, then those between any points, each in the order of the stick model, then three rows
-    /// of every force in plan that is the same in every direction. They are not part of K + K′. Where stiffness-proportional damping
+    /// of every force in plan that is the same in every direction, and three or six of every section on a surface. They are not part of K + K′. Where stiffness-proportional damping
     /// acts on them with their initial stiffness, that stands in K, and its negative in K′.
     pub springs: Vec<YieldingSpring>,
-    /// Number of springs that yield by themselves; the rows of forces in plan, then those of sections on a surface follow, three of each.
+    /// Number of springs that yield by themselves; the rows of forces in plan, then those of sections on a surface follow.
     pub single_springs: usize,
     /// Mass-proportional damping α \[1/s\].
     pub alpha: f64,
@@ -67,6 +69,8 @@ pub struct YieldingSpring {
     pub damped_by_tangent: bool,
     /// Share of its force in the base shear \[–\].
     pub(crate) in_base_shear: f64,
+    /// Its law, if it is the first of six rows of a section that yields on a surface in space.
+    pub(crate) surface: Option<Arc<SpaceSurface>>,
 }
 
 impl YieldingSpring {
@@ -174,7 +178,7 @@ impl Equations {
         }
         let springs = yielding_springs(stick_model, &path);
         let single_springs =
-            springs.len() - stick_model.rows_of_bearings() - 3 * stick_model.surfaces.len();
+            springs.len() - stick_model.rows_of_bearings() - stick_model.surfaces.len();
         let [stiffness, undamped, dashpots] =
             triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
         let weighs = vertical_mass.iter().zip(loads);
@@ -341,6 +345,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
             row: path.row(&row),
             hysteresis: single_spring.hysteresis,
             damped_by_tangent: single_spring.proportional_damping == ProportionalDamping::Tangent,
+            surface: None,
         }
     });
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
@@ -357,15 +362,22 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
                 hysteresis,
                 damped_by_tangent: false,
                 in_base_shear: f64::from(u8::from(row == 0)),
+                surface: None,
             })
         })
     });
-    let surfaces = stick_model.surface_rows().map(|element| YieldingSpring {
-        row: path.row(&stick_model.carried_row(&element.row)),
-        hysteresis: element.hysteresis,
-        damped_by_tangent: false,
-        // It neither slides nor stands on a foundation.
-        in_base_shear: 0.0,
-    });
+    let rows = &stick_model.surfaces;
+    let surfaces = rows
+        .iter()
+        .enumerate()
+        .map(|(first, element)| YieldingSpring {
+            row: path.row(&stick_model.carried_row(&element.row)),
+            hysteresis: element.hysteresis,
+            damped_by_tangent: false,
+            // It neither slides nor stands on a foundation.
+            in_base_shear: 0.0,
+            surface: SpaceSurface::of(rows[first..].iter().take(6).map(|row| &row.hysteresis))
+                .map(Arc::new),
+        });
     single.chain(bearings).chain(surfaces).collect()
 }

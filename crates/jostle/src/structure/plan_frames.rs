@@ -75,7 +75,7 @@ pub(super) fn add_frames(
         shear_places.extend(shear);
         diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
         let first_node = sticks.nodes.len();
-        let before = [sticks.yielding.len(), 3 * sticks.surfaces.len()];
+        let before = [sticks.yielding.len(), sticks.surfaces.len()];
         let elements = sticks.append(discretized.stick_model, &place);
         let [along, across, _] = plan_frame.shares(plan_frame.at);
         let direction = [along, across];
@@ -276,11 +276,9 @@ impl StickModel {
                 yielding
             }));
         self.surfaces
-            .extend(frame.surfaces.into_iter().map(|mut rows| {
-                for element in &mut rows {
-                    element.row = element.row.moved_up(before);
-                }
-                rows
+            .extend(frame.surfaces.into_iter().map(|mut element| {
+                element.row = element.row.moved_up(before);
+                element
             }));
         if self.rocks() {
             for component in [Y, THETA] {

@@ -144,8 +144,8 @@ pub enum SpringPlace {
         end: MemberEnd,
         /// Instead of an end, the point between floors where it is struck, from 1 at the lowest one.
         point: Option<usize>,
-        /// Which row.
-        row: ForceRow,
+        /// Which row, from 1.
+        row: usize,
     },
     /// Shear of a wall or a coupling beam of a frame, which is its sliding.
     Sliding {

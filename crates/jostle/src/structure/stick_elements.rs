@@ -94,7 +94,7 @@ impl StickModel {
 
     /// Rows of sections that yield on a surface, which come last.
     pub(crate) fn surface_rows(&self) -> impl DoubleEndedIterator<Item = &YieldingElement> {
-        self.surfaces.iter().flatten()
+        self.surfaces.iter()
     }
 
     /// How far to the right of the node of its foundation a node stands that rises and sinks with its rotation: a foot, or what

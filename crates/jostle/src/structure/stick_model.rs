@@ -30,8 +30,8 @@ pub struct StickModel {
     pub double_curvature: BTreeMap<usize, f64>,
     /// Springs over any displacements that yield, such as columns and walls at points of a plan.
     pub yielding: Vec<YieldingElement>,
-    /// Sections that yield on a surface, three rows each.
-    pub surfaces: Vec<[YieldingElement; 3]>,
+    /// Rows of sections that yield on a surface: three of each, or six of each of a space frame.
+    pub surfaces: Vec<YieldingElement>,
     /// The mat of an isolated building in plan.
     pub plan_mat: Option<PlanMat>,
     /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their

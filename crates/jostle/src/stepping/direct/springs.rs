@@ -315,8 +315,9 @@ impl Direct {
                     spring.hysteresis.answer(memory, trial.reached, &rates);
                 all_fit &= trial.fits(spring.hysteresis.backbone().yield_force());
             }
-            let forces = in_plan.chunks_exact(3).zip(rows.chunks_exact_mut(3));
-            for ((springs, rows), memories) in forces.zip(memories[single..].chunks_exact(3)) {
+            for own in plan_forces::together(in_plan) {
+                let (springs, rows) = (&in_plan[own.clone()], &mut rows[own.clone()]);
+                let memories = &memories[single..][own];
                 for ((spring, row), memory) in springs.iter().zip(&mut *rows).zip(memories) {
                     reach(spring, row, memory);
                 }
@@ -345,10 +346,10 @@ impl Direct {
                     let rates = trial.rates_to(memory, at);
                     sum += way * (spring.hysteresis.answer(memory, at, &rates)[0] - balance);
                 }
-                let rows = trials[single..].chunks_exact(3);
-                let known = rows.zip(memories[single..].chunks_exact(3));
-                for (springs, (rows, memories)) in in_plan.chunks_exact(3).zip(known) {
-                    sum += plan_forces::slope(springs, rows, memories, share);
+                let (rows, memories) = (&trials[single..], &memories[single..]);
+                for own in plan_forces::together(in_plan) {
+                    let (springs, rows) = (&in_plan[own.clone()], &rows[own.clone()]);
+                    sum += plan_forces::slope(springs, rows, &memories[own], share);
                 }
             }
             sum
@@ -384,11 +385,9 @@ impl Direct {
                     spring.hysteresis.answer(memory, trial.reached, &rates);
             }
             rows.iter_mut().for_each(go_back);
-            let known = rows
-                .chunks_exact_mut(3)
-                .zip(memories[single..].chunks_exact(3));
-            for (springs, (rows, memories)) in in_plan.chunks_exact(3).zip(known) {
-                plan_forces::answer(springs, rows, memories);
+            for own in plan_forces::together(in_plan) {
+                let (springs, rows) = (&in_plan[own.clone()], &mut rows[own.clone()]);
+                plan_forces::answer(springs, rows, &memories[single..][own]);
             }
         }
     }
