@@ -174,6 +174,11 @@ pub(crate) fn drawing(
                             @let [x, y] = scale.place(line);
                             rect.column x=(format!("{:.1}", x - 2.5)) y=(format!("{:.1}", y - 2.5)) width="5" height="5" {}
                         }
+                        @for wall in frame.frame.walls.iter().filter(|wall| wall.storeys[0] == 1) {
+                            @let axis = frame.frame.line_positions()[wall.line - 1];
+                            @let ends = [-0.5, 0.5].map(|share| frame.point_at(axis + share * wall.length));
+                            polyline.wide points=(scale.path(ends.into_iter())) { title { (message::wall_of_frame(&frame.name)) } }
+                        }
                     }
                     @if let Some(frame) = &tiers.space_frame { (grid(frame, scale)) }
                     @for (at, name) in yielding_walls(tiers) {

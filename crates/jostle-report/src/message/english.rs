@@ -786,6 +786,7 @@ messages! {
     centre_of_stiffness = "centre of stiffness of the lowest storey";
     centre_of_mass = "centre of mass of the lowest floor";
     wall_name(name) = "wall {name}";
+    wall_of_frame(name) = "wall in frame {name}";
     floors = "floors";
     floors_floors_in_words(floors_in_words) = "floors {floors_in_words}";
     peak_peak_force(peak_force) = ": peak {peak_force}";
