@@ -115,7 +115,7 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
     writeln!(
         text,
         "  {cracked} of {} crack, {yielded} yield.{failures}{links}{ended}",
-        counted(springs - shear, "hinge")
+        counted(one.building.equations.yielding_places() - shear, "hinge")
     )?;
     write_events(text, one, curve)
 }

@@ -176,13 +176,12 @@ fn read<'n>(
         return None;
     };
     let hinge = reader.get(&view, "hinge");
-    let mut fibres = BTreeMap::new();
     // Without a hinge of its own a wall stays elastic, whatever columns do.
     let of_fibres = match &hinge {
         Some(field) => wall_fibres::asked_in_space(reader, field)?,
         None => false,
     };
-    let moments = match hinge {
+    let (moments, fibres) = match hinge {
         Some(field) if of_fibres => {
             let of_wall = OfWall {
                 size: [thickness, length],
@@ -190,15 +189,16 @@ fn read<'n>(
                 concrete: reinforced::of_building(reader, building),
                 in_space: true,
             };
-            fibres = wall_fibres::read(reader, &view, &field, of_wall)?;
-            [None, None]
+            let fibres = wall_fibres::read(reader, &view, &field, of_wall);
+            (Some([None, None]), fibres)
         }
         hinge => {
             wall_fibres::refuse(reader, &view, true);
-            match hinge {
-                Some(_) => read_hinge(reader, building, &view, Sort::Column, around.hinges)?,
-                None => [None, None],
-            }
+            let moments = match hinge {
+                Some(_) => read_hinge(reader, building, &view, Sort::Column, around.hinges),
+                None => Some([None, None]),
+            };
+            (moments, Some(BTreeMap::new()))
         }
     };
     let [usual, torsion] = material.factors;
@@ -213,6 +213,7 @@ fn read<'n>(
         stated("GA", Dimension::Force),
     ];
     let (along, length, thickness) = (along?, length?, thickness?);
+    let (moments, mut fibres) = (moments?, fibres?);
     let mut size = [thickness; 2];
     size[along.index()] = length;
     let mut section = SpaceSection::rectangle(size, modulus?, material.poisson_ratio, true)?;

@@ -253,6 +253,10 @@ fn a_column_that_is_pushed_bears_its_surface() {
                         "moment",
                     );
                     assert!(last.roof > 0.9 * 0.03 * 3.2, "{}", last.roof);
+                    // An end is one hinge, of whatever number of springs.
+                    let equations = &system.buildings[0].equations;
+                    assert_eq!(pushed.counts(equations.springs.len()), [2, 2]);
+                    assert_eq!(equations.yielding_places(), 2);
                 }
             }
         }

@@ -282,7 +282,7 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
         tiles.push((
             message::cracking_and_yielding_title(),
             message::yielded_yielded(yielded),
-            message::of_cracked(cracked, springs),
+            message::of_cracked(cracked, one.building.equations.yielding_places()),
         ));
     }
     if one.links() > 0 {

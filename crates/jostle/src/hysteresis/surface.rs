@@ -121,14 +121,14 @@ impl Hysteresis {
         )
     }
 
-    /// Whether it is the first of the three.
+    /// Whether it is the first of them.
     pub(crate) fn starts_surface(&self) -> bool {
         matches!(
             self.rule,
             HysteresisRule::Surface {
                 row: ForceRow::X,
                 ..
-            }
+            } | HysteresisRule::SpaceSurface { row: 0, .. }
         )
     }
 

@@ -467,9 +467,8 @@ impl<E: StepEquations> EquilibriumPath<E> {
         }
         let mut corners = Vec::new();
         for surface in &self.surfaces {
-            if length >= surface.time(&self.memories, &self.spring_rates) {
-                corners.push(surface.first);
-            }
+            let hits = length >= surface.time(&self.memories, &self.spring_rates);
+            let stood = surface.is_reached(&self.memories);
             let points = surface.points(&self.memories);
             let rates = surface.points(&self.spring_rates);
             let to = [0, 1, 2].map(|point| points[point].deformation() + length * rates[point]);
@@ -477,6 +476,10 @@ impl<E: StepEquations> EquilibriumPath<E> {
             for (point, row) in (surface.first..).take(surface.count()).enumerate() {
                 let law = &self.springs[row].hysteresis;
                 law.commit(&mut self.memories[row], to[point], force[point]);
+            }
+            // Those that come as near as none at all with another are on theirs as well.
+            if hits || (!stood && surface.is_reached(&self.memories)) {
+                corners.push(surface.first);
             }
         }
         let springs = self.springs.iter().zip(&mut self.memories);

@@ -326,6 +326,15 @@ impl Equations {
     pub fn base_shear(&self, displacement: &[f64]) -> f64 {
         self.base_shear.value(displacement)
     }
+
+    /// Number of places that yield: springs, of which all rows of a section on a surface are one.
+    #[must_use]
+    pub fn yielding_places(&self) -> usize {
+        let springs = self.springs.iter().map(|spring| &spring.hysteresis);
+        springs
+            .filter(|law| !law.is_on_surface() || law.starts_surface())
+            .count()
+    }
 }
 
 /// Springs that yield: those by themselves, then bearings in plan, then sections on a surface.
