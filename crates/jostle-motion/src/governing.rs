@@ -143,7 +143,7 @@ impl Governing {
                 format!("Governing value: {taken} of {motions} motions ({clause}).")
             }
             (false, false) => format!(
-                "{clause} requires at least {asked}; there are {motions}. Governing value: {taken}."
+                "{clause}: at least {asked} are required, and there are {motions}. Governing value: {taken}."
             ),
         }
     }

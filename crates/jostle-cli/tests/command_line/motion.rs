@@ -478,9 +478,9 @@ fn sets_are_judged_by_the_rules_of_their_code() {
         }
         let said = complained(&weak);
         let wanted = if name == "en1998" {
-            "error: the set does not meet EN 1998-1, clause 3.2.3.1.2(4): 2 of 3 rules\n"
+            "error: the set fails 2 of 3 rules of EN 1998-1, clause 3.2.3.1.2(4)\n"
         } else {
-            "error: the set does not meet ASCE 7, section 16.2: 1 of 2 rules\n"
+            "error: the set fails 1 of 2 rules of ASCE 7, section 16.2\n"
         };
         assert_eq!(said, wanted);
     }

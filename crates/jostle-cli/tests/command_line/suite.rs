@@ -183,7 +183,7 @@ fn statistics_are_those_of_the_summaries() {
             "asce7",
             "maximum",
             false,
-            "asks for at least eleven motions",
+            "at least eleven motions are required",
         ),
         ("mean", "mean", true, "the mean of 3 motions"),
     ] {

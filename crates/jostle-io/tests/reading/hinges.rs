@@ -279,7 +279,7 @@ fn faults_name_the_number_and_what_to_do() {
                 &format!(r#"hinges = {{ rule = "bilinear", column = {{ {moments} }} }}"#),
             ),
             "building[0].hinges.column.cracking",
-            "no place in a bilinear curve",
+            "does not apply to a bilinear curve",
         ),
         (
             frame(

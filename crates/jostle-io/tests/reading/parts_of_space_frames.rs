@@ -269,7 +269,7 @@ fn connections_yield_as_in_plane_frames() {
         ),
         (
             "joint = { rotational_stiffness = 4e7, hinge = { rule = \"bilinear\", yield = 6e4, post_yield = 0.03 } }\nhinges = { rule = \"bilinear\", beam = { yield = 6e4, post_yield = 0.02 } }\n",
-            "stands where beams have hinges already",
+            "cannot be combined with hinges of beams",
         ),
     ] {
         let said = refused(key);

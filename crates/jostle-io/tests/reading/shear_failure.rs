@@ -155,7 +155,7 @@ fn columns_struck_between_floors_have_a_spring_above_and_one_below() {
 #[test]
 fn columns_beside_a_wall_fail_by_their_rule() {
     let failure = "shear_failure = { rule = \"sezen-moehle\", axial_first = \"axial-limit\" }\n";
-    let wall = "[[building.wall]]\nline = 2\nlength = \"2 m\"\nthickness = \"250 mm\"\n";
+    let wall = "[[building.wall]]\nline = 2\nlength = \"2 m\"\nthickness = \"250 mm\"\nelastic_modulus = \"30 GPa\"\n";
     let rows = |wall: &str| {
         let key = format!("{failure}axial = \"flexible\"\n{wall}");
         let rows = read(&key, TIES, "\"common\"");

@@ -274,7 +274,17 @@ fn summary_of(model: &str) -> Summary {
 }
 
 /// Numbers that few objects have.
-const RARE: [&str; 2] = ["degree_of_coupling", "pga_across_m_s2"];
+const RARE: [&str; 9] = [
+    "closing_peak_ground_m",
+    "crushed_depth_m",
+    "degree_of_coupling",
+    "equivalent_restitution",
+    "friction_j",
+    "ground_j",
+    "pga_across_m_s2",
+    "soil_j",
+    "vertical_displacement_peak_m",
+];
 
 /// Keys of objects that may be `null`.
 const OBJECTS: [&str; 4] = ["first", "first_joint", "impact", "shear_at"];

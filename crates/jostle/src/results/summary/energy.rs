@@ -41,15 +41,15 @@ impl EnergySummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("input_j", Unit::J, "work of the ground motion", |e| e.input_j).in_study(),
-        Quantity::<Self>::optional("ground_j", Unit::J, "additional work done through contacts and links by differential ground motion; only with different motion under each building", |e| e.ground_j).not_in_summary(),
+        Quantity::<Self>::optional("ground_j", Unit::J, "additional work done through contacts and links by differential ground motion; only with different motion under each building", |e| e.ground_j),
         Quantity::<Self>::real("kinetic_j", Unit::J, "kinetic energy", |e| e.kinetic_j),
         Quantity::<Self>::real("strain_j", Unit::J, "strain energy", |e| e.strain_j),
         Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated by viscous damping, including links", |e| e.damped_j).in_study(),
         Quantity::<Self>::real("links_j", Unit::J, "part of this dissipated by links", |e| e.links_j),
-        Quantity::<Self>::optional("soil_j", Unit::J, "part of this dissipated by soil dashpots; only with foundations", |e| e.soil_j).not_in_summary(),
+        Quantity::<Self>::optional("soil_j", Unit::J, "part of this dissipated by soil dashpots; only with foundations", |e| e.soil_j),
         Quantity::<Self>::real("hysteretic_j", Unit::J, "energy in hinges", |e| e.hysteretic_j).in_study(),
         Quantity::<Self>::real("contact_j", Unit::J, "energy in contacts", |e| e.contact_j).in_study(),
-        Quantity::<Self>::optional("friction_j", Unit::J, "energy dissipated by friction along faces; only with friction", |e| e.friction_j).not_in_summary(),
+        Quantity::<Self>::optional("friction_j", Unit::J, "energy dissipated by friction along faces; only with friction", |e| e.friction_j),
         Quantity::<Self>::real("imbalance", Unit::NONE, "energy imbalance at the end, relative to the input", |e| e.imbalance).in_study(),
         Quantity::<Self>::real("worst_imbalance", Unit::NONE, "greatest energy imbalance over time, relative to the greatest energy up to that time", |e| e.worst_imbalance).in_study(),
     ];

@@ -147,15 +147,15 @@ impl ContactSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("height_m", Unit::M, "height above the base, or above the datum of elevations", |c| c.height_m),
         Quantity::<Self>::real("width_m", Unit::M, "width at rest", |c| c.width_m),
-        Quantity::<Self>::optional("crushed_depth_m", Unit::M, "crushed depth of the face at the end, by which the gap is wider; only with crush", |c| c.crushed_depth_m).not_in_summary(),
-        Quantity::<Self>::optional("equivalent_restitution", Unit::NONE, "coefficient of restitution for which the published formula gives the dashpot; only with damping", |c| c.equivalent_restitution).not_in_summary(),
+        Quantity::<Self>::optional("crushed_depth_m", Unit::M, "crushed depth of the face at the end, by which the gap is wider; only with crush", |c| c.crushed_depth_m),
+        Quantity::<Self>::optional("equivalent_restitution", Unit::NONE, "coefficient of restitution for which the published formula gives the dashpot; only with damping", |c| c.equivalent_restitution),
         Quantity::<Self>::whole("impact_count", "impacts", |c| c.impact_count).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |c| c.peak_force_n).in_study(),
         Quantity::<Self>::optional("peak_force_at_s", Unit::S, "time of this peak; absent without an impact", |c| c.peak_force_at_s),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |c| c.impulse_n_s).in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing; the excess over width_m is indentation", |c| c.closing_peak_m).in_study(),
         Quantity::<Self>::real("closing_peak_at_s", Unit::S, "time of this peak", |c| c.closing_peak_at_s),
-        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "part of this closing due to the ground displacements; only with different motion under each building", |c| c.closing_peak_ground_m).not_in_summary(),
+        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "part of this closing due to the ground displacements; only with different motion under each building", |c| c.closing_peak_ground_m),
     ];
 }
 

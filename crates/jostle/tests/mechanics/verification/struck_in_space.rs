@@ -1155,7 +1155,7 @@ fn what_cannot_be_struck_is_told() {
     let none = faults(vec![framed(bay_by_bay(true)), beside_frame(1.0)], at(2.6));
     assert!(
         none.contains(
-            "gap[0].floors[0]: lies between floors, where no column stands within the common width"
+            "gap[0].floors[0]: lies between floors, where no column stands within reach = 0.5 m and the common width"
         ),
         "{none}"
     );
