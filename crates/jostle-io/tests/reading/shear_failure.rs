@@ -155,9 +155,9 @@ fn columns_struck_between_floors_have_a_spring_above_and_one_below() {
 #[test]
 fn columns_beside_a_wall_fail_by_their_rule() {
     let failure = "shear_failure = { rule = \"sezen-moehle\", axial_first = \"axial-limit\" }\n";
-    let wall = "[[building.wall]]\nline = 2\nlength = \"2 m\"\nthickness = \"250 mm\"\nelastic_modulus = \"30 GPa\"\n";
+    let wall = "[[building.wall]]\nline = 2\nlength = \"2 m\"\nthickness = \"250 mm\"\n";
     let rows = |wall: &str| {
-        let key = format!("{failure}axial = \"flexible\"\n{wall}");
+        let key = format!("{failure}axial = \"flexible\"\nconcrete = \"C30\"\n{wall}");
         let rows = read(&key, TIES, "\"common\"");
         rows.unwrap_or_else(|error| panic!("{error}"))
     };
@@ -170,7 +170,7 @@ fn columns_beside_a_wall_fail_by_their_rule() {
         }
     }
     // Walls of the model take no shear spring.
-    let key = format!("{failure}axial = \"flexible\"\n{wall}");
+    let key = format!("{failure}axial = \"flexible\"\nconcrete = \"C30\"\n{wall}");
     let text = MODEL
         .replace("HEIGHTS", "[\"4 m\", \"3.2 m\"]")
         .replace("KEY", &key)
