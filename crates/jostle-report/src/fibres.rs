@@ -9,6 +9,9 @@ use crate::{Page, fibre_paths, format, message};
 /// Most rows of the table.
 const MOST_ROWS: usize = 200;
 
+/// Energy that counts as none \[J\].
+const NO_ENERGY: f64 = 1e-6;
+
 /// The section; `None` without such columns.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let buildings = page.summary.buildings.iter();
@@ -27,17 +30,25 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             @for (name, all) in &buildings { p { (sentence(name, all)) } }
             @if !paths.is_empty() {
                 div.static-plots { @for path in &paths { (path.figure()) } }
-                p.quiet { (message::paths_of_ends(paths.len())) }
+                p.quiet {
+                    @if all.iter().any(|end| has_strains(end)) { (message::paths_of_ends(paths.len())) }
+                    @else { (message::paths_on_surfaces(paths.len())) }
+                }
             }
             (table(&all))
         }
     })
 }
 
+/// Whether it is made of fibres, which have strains, or yields on a surface.
+fn has_strains(end: &FibreSummary) -> bool {
+    end.steel_strain.is_some() || end.concrete_strain.is_some()
+}
+
 fn sentence(name: &str, all: &[FibreSummary]) -> String {
     let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|fibre| has(fibre)).count();
     let yielded = count(|end| end.yielded_s.is_some());
-    if count(|end| end.steel_strain.is_none() && end.concrete_strain.is_none()) == all.len() {
+    if count(has_strains) == 0 {
         return message::ends_that_yielded_on_surfaces(name, yielded, all.len());
     }
     let crushed = count(|end| end.crushed_s.is_some());
@@ -90,6 +101,7 @@ fn passed(fibre: &FibreSummary) -> String {
 
 fn table(all: &[&FibreSummary]) -> Markup {
     let in_space = all.iter().any(|fibre| fibre.across.is_some());
+    let strained = all.iter().any(|end| has_strains(end));
     let mut columns = vec![
         (message::compression(), format::FORCE.name()),
         (message::moment(), format::MOMENT.name()),
@@ -99,14 +111,16 @@ fn table(all: &[&FibreSummary]) -> Markup {
         columns.push((message::moment_across(), format::MOMENT.name()));
         columns.push((message::rotation_across(), "mrad"));
     }
-    columns.extend([
-        (message::strain_of_bars(), "‰"),
-        (message::yielded(), "s"),
-        (message::strain_of_concrete(), "‰"),
-        (message::past_its_strength(), "s"),
-        (message::limits_passed(), "s"),
-        (message::dissipated(), format::ENERGY.name()),
-    ]);
+    columns.push((message::yielded(), "s"));
+    if strained {
+        columns.extend([
+            (message::strain_of_bars(), "‰"),
+            (message::strain_of_concrete(), "‰"),
+            (message::past_its_strength(), "s"),
+            (message::limits_passed(), "s"),
+        ]);
+    }
+    columns.push((message::dissipated(), format::ENERGY.name()));
     html! {
         @if all.len() > MOST_ROWS {
             p.quiet { (message::the_first_of_in_order(MOST_ROWS, all.len())) }
@@ -123,7 +137,7 @@ fn table(all: &[&FibreSummary]) -> Markup {
                     @for own in all.iter().take(MOST_ROWS) {
                         tr {
                             th scope="row" { (own.name) }
-                            @for value in cells(own, in_space) { td.number { (value) } }
+                            @for value in cells(own, in_space, strained) { td.number { (value) } }
                         }
                     }
                 }
@@ -132,7 +146,7 @@ fn table(all: &[&FibreSummary]) -> Markup {
     }
 }
 
-fn cells(fibre: &FibreSummary, in_space: bool) -> Vec<String> {
+fn cells(fibre: &FibreSummary, in_space: bool, strained: bool) -> Vec<String> {
     let nothing = || format::NOTHING.to_owned();
     let strain = |strain: Option<f64>| {
         strain.map_or_else(nothing, |strain| format::significant(1e3 * strain, 3))
@@ -167,13 +181,19 @@ fn cells(fibre: &FibreSummary, in_space: bool) -> Vec<String> {
             },
         ));
     }
-    cells.extend([
-        strain(fibre.steel_strain),
-        instant(fibre.yielded_s),
-        strain(fibre.concrete_strain),
-        instant(fibre.crushed_s),
-        passed(fibre),
-        format::significant(format::ENERGY.of(fibre.dissipated_j), 3),
-    ]);
+    cells.push(instant(fibre.yielded_s));
+    if strained {
+        cells.extend([
+            strain(fibre.steel_strain),
+            strain(fibre.concrete_strain),
+            instant(fibre.crushed_s),
+            passed(fibre),
+        ]);
+    }
+    // Of what stays elastic only rounding is left.
+    cells.push(match fibre.dissipated_j.abs() > NO_ENERGY {
+        true => format::significant(format::ENERGY.of(fibre.dissipated_j), 3),
+        false => "0".to_owned(),
+    });
     cells
 }

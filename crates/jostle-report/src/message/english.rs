@@ -1227,6 +1227,7 @@ messages! {
     compression_axis(unit) = "compression [{unit}]";
     path_of_the_run = "this run";
     interaction_of_the_section = "capacity";
+    paths_on_surfaces(count) = "Axial compression and moment of column ends; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone.";
     paths_of_ends(count) = "Axial compression and moment of the ends whose strains are closest to a limit or furthest beyond it; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns can exceed it.";
 
     // panels
