@@ -299,14 +299,7 @@ fn fallen(summary: &Summary) -> Option<Tile> {
 /// Of the columns that a neighbour struck between floors, the one with the greatest demand over capacity, or with the hardest
 /// impact where no capacity is known.
 fn struck_column(summary: &Summary) -> Option<Tile> {
-    let hardest = |member: &MemberSummary| {
-        let forces = member.struck.iter().map(|point| point.peak_force_n);
-        forces.fold(0.0, f64::max)
-    };
-    let ratio = |member: &MemberSummary| {
-        let ratio = member.ratio.as_ref()?;
-        Some(ratio.bending.max(ratio.shear.unwrap_or(0.0)))
-    };
+    let (hardest, ratio) = (MemberSummary::struck_force_n, MemberSummary::greatest_ratio);
     let members = summary
         .buildings
         .iter()

@@ -566,10 +566,8 @@ fn write_later_failures(text: &mut String, list: &[ShearFailure]) -> std::fmt::R
 fn write_struck_column(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     let members = buildings.iter().flat_map(|building| &building.members);
     let struck = members.filter_map(|member| {
-        let hardest = member.struck.iter().map(|point| point.peak_force_n);
-        let hardest = hardest.fold(0.0, f64::max);
-        let ratio = member.ratio.as_ref().filter(|_| hardest > 0.0)?;
-        let ratio = ratio.bending.max(ratio.shear.unwrap_or(0.0));
+        let hardest = member.struck_force_n();
+        let ratio = member.greatest_ratio().filter(|_| hardest > 0.0)?;
         Some((member, ratio, hardest))
     });
     let Some((member, ratio, hardest)) = struck.max_by(|a, b| a.1.total_cmp(&b.1)) else {

@@ -43,6 +43,22 @@ pub struct MemberSummary {
     pub axial_failure: Option<AxialFailureSummary>,
 }
 
+impl MemberSummary {
+    /// Greatest contact force on its struck points; 0 without an impact \[N\].
+    #[must_use]
+    pub fn struck_force_n(&self) -> f64 {
+        let forces = self.struck.iter().map(|point| point.peak_force_n);
+        forces.fold(0.0, f64::max)
+    }
+
+    /// Greatest ratio of demand to capacity, in bending or shear; `None` where no capacity is known \[–\].
+    #[must_use]
+    pub fn greatest_ratio(&self) -> Option<f64> {
+        let ratio = self.ratio.as_ref()?;
+        Some(ratio.bending.max(ratio.shear.unwrap_or(0.0)))
+    }
+}
+
 /// Greatest forces of a member over all its sections, with and without contact.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct MemberComparison {
