@@ -72,7 +72,7 @@ def test_arguments_are_checked() -> None:
         jostle.run_suite(tree(), governing="ec8")
     with pytest.raises(ValueError, match="jobs: must be at least 1"):
         jostle.run_suite(tree(), jobs=0)
-    with pytest.warns(jostle.JostleWarning, match="asks for at least eleven motions"):
+    with pytest.warns(jostle.JostleWarning, match="at least eleven motions are required"):
         jostle.run_suite(tree(), governing="asce7", report=False)
 
 
