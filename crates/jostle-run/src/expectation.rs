@@ -162,6 +162,8 @@ pub struct Pace {
     started: Instant,
     /// Time of the run relative to that of its first pass.
     passes: f64,
+    /// Step of the plan: contacts at rest may divide the first ones into much shorter ones \[s\].
+    step: f64,
     /// Computing time and time reached after the first steps, which factorise the equations \[s\].
     first: Option<[f64; 2]>,
     /// Computing time since then \[s\].
@@ -184,6 +186,7 @@ impl Pace {
         Self {
             started: Instant::now(),
             passes,
+            step: prepared.plan.step,
             first: None,
             since: 0.0,
             reached: 0.0,
@@ -208,12 +211,14 @@ impl Pace {
         self.reached = time;
         match self.first {
             None if time > 0.0 => self.first = Some([elapsed, time]),
-            Some([beginning, from]) if time > from => {
+            None => {}
+            Some([beginning, from]) => {
                 self.since = elapsed - beginning;
-                let rest = self.since * (duration - from) / (time - from);
-                self.expected = self.passes * (beginning + rest);
+                if time - from >= self.step {
+                    let rest = self.since * (duration - from) / (time - from);
+                    self.expected = self.passes * (beginning + rest);
+                }
             }
-            None | Some(_) => {}
         }
         self.expected
     }
@@ -293,6 +298,7 @@ mod tests {
         let mut pace = Pace {
             started: Instant::now(),
             passes: 3.0,
+            step: 0.01,
             first: None,
             since: 0.0,
             reached: 0.0,
@@ -305,6 +311,8 @@ mod tests {
         assert_eq!(at(0.5, 0.0), f64::INFINITY);
         // The first step takes 6 s, the others 10 ms.
         assert_eq!(at(6.5, 0.01), f64::INFINITY);
+        // Nor is a small part of a step, as where buildings stand in contact.
+        assert_eq!(at(6.5, 0.01 + 1e-15), f64::INFINITY);
         let due = 3.0 * (6.5 + 0.01 * 1999.0);
         for steps in [2.0, 30.0] {
             let expected = at(6.5 + 0.01 * (steps - 1.0), 0.01 * steps);
