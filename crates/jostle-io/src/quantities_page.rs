@@ -14,6 +14,9 @@ name. *Study*: a column in the table of a study.
 *Compared*: tables also contain the same quantity of the run without contact, such as `storey_drift_peak_without_contact`, and the
 ratio of the two absolute values, such as `storey_drift_peak_amplification` (absent if the value without contact is zero). In `summary.json` these are in
 `without_contact` and `amplification`. In studies they are columns with `without_contact = true`.
+
+Studies have one more column of every building, `J1.sa_t1_m_s2`: the pseudo-acceleration of the record at its first period with 5 %
+damping.
 ";
 
 /// All quantities as a page of Markdown.
