@@ -156,7 +156,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Column,
         "`column` of a frame",
-        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table has line, storeys or `omit` gives one table per storey from the ground up; otherwise every table applies to its lines and storeys. A floor has a joint where a column is below it. See [Columns that differ, set-backs and podiums](how-to/podiums.md).",
+        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table has line, storeys or `omit` gives one table per storey from the ground up; otherwise every table applies to its lines and storeys. A floor has a joint where a column is below it, or where the beams of two bays meet: braces and columns above may stand there. See [Columns that differ, set-backs and podiums](how-to/podiums.md).",
     ),
     (
         Section::Beam,

@@ -139,9 +139,9 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
-    /// Storeys of every column line, of a frame in one plane that lacks some.
+    /// Storeys with a column from 1, by column line, of a frame in one plane that lacks some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    tops: Vec<usize>,
+    columns: Vec<Vec<usize>>,
     /// Height of the base above the datum, if it is not zero \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     elevation: Option<f64>,
@@ -524,9 +524,9 @@ fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Out
         frame,
         heights: building.floor_heights(),
         spans,
-        tops: plane
+        columns: plane
             .filter(|plane| !plane.is_regular())
-            .map(Frame::tops)
+            .map(Frame::storeys_of_lines)
             .unwrap_or_default(),
         elevation: Some(building.base.elevation).filter(|elevation| *elevation != 0.0),
         diagonals: diagonals.collect(),

@@ -56,10 +56,12 @@ pub(super) fn read(
         &no_span,
         walls,
     );
-    let joints = |floor: usize, bay: usize| match &columns {
-        Some(grid) => [bay, bay + 1]
-            .iter()
-            .all(|line| grid[floor][*line].is_some()),
+    // Beams are continuous over lines without a column.
+    let between_columns = |floor: usize, bay: usize| match &columns {
+        Some(grid) => {
+            let stands = |column: &Option<_>| column.is_some();
+            grid[floor][..=bay].iter().any(stands) && grid[floor][bay + 1..].iter().any(stands)
+        }
         None => true,
     };
     let beams = read_grid(
@@ -69,7 +71,7 @@ pub(super) fn read(
         storeys,
         bays,
         beam,
-        &joints,
+        &between_columns,
         &span,
         walls,
     );
@@ -93,7 +95,7 @@ pub(super) fn read(
     }
 }
 
-/// Walls and coupling beams take the places of others. `stands`: whether a member finds its joints; beams stand only between joints, unless a table names their bay.
+/// Walls and coupling beams take the places of others. `stands`: whether a member finds its joints; beams stand only between columns, unless a table names their bay.
 #[expect(
     clippy::too_many_arguments,
     reason = "columns and beams differ in each of them"

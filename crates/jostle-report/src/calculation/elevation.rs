@@ -32,8 +32,8 @@ struct Outline {
     lines: Vec<f64>,
     floors: Vec<f64>,
     foot: f64,
-    /// Storeys of every line, and the first and the last line of every floor.
-    tops: Vec<usize>,
+    /// Storeys with a column from 1, by line, and the first and the last line of every floor.
+    columns: Vec<Vec<usize>>,
     outer: Vec<[usize; 2]>,
 }
 
@@ -52,11 +52,11 @@ impl Outline {
                 vec![0.0, (SLENDERNESS * height).max(LEAST_WIDTH)]
             }
         };
-        let (tops, outer) = match &building.structure {
+        let (columns, outer) = match &building.structure {
             Structure::Frame(frame) => {
                 let floors = 1..=floors.len();
                 let outer = floors.map(|floor| frame.outer_lines(floor).unwrap_or_default());
-                (frame.tops(), outer.collect())
+                (frame.storeys_of_lines(), outer.collect())
             }
             _ => (Vec::new(), Vec::new()),
         };
@@ -65,7 +65,7 @@ impl Outline {
             lines,
             floors: floors.into_iter().map(|floor| floor + foot).collect(),
             foot,
-            tops,
+            columns,
             outer,
         }
     }
@@ -283,9 +283,11 @@ fn drawing(
                     });
                     line.(own.place.kind.name()) x1=(round(ends[0][0])) x2=(round(ends[1][0])) y1=(round(ends[0][1])) y2=(round(ends[1][1])) {}
                 }
-                @for (line, storeys) in outline.lines.iter().zip(&outline.tops) {
-                    @if let Some(top) = storeys.checked_sub(1) {
-                        line.columns x1=(round(x(*line))) x2=(round(x(*line))) y1=(round(y(outline.foot))) y2=(round(y(outline.floors[top]))) {}
+                @for (line, storeys) in outline.lines.iter().zip(&outline.columns) {
+                    @for run in storeys.chunk_by(|below, above| below + 1 == *above) {
+                        @let foot = run[0].checked_sub(2).map_or(outline.foot, |floor| outline.floors[floor]);
+                        @let top = outline.floors[run[run.len() - 1] - 1];
+                        line.columns x1=(round(x(*line))) x2=(round(x(*line))) y1=(round(y(foot))) y2=(round(y(top))) {}
                     }
                 }
                 @for (floor, outer) in outline.floors.iter().zip(&outline.outer) {

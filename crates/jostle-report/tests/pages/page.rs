@@ -537,7 +537,7 @@ fn bearings_links_and_walls_have_loops_and_a_table() {
 fn fewer_bays_above_and_elevations_reach_the_pictures() {
     let mut run = two_frames(0.1);
     let plain = render(&run.page());
-    assert!(!plain.contains("\"tops\":") && !plain.contains("\"elevation\":"));
+    assert!(!plain.contains("\"columns\":") && !plain.contains("\"elevation\":"));
     let building = &mut run.model.buildings[1];
     building.base.elevation = -1.5;
     let Structure::Frame(frame) = &mut building.structure else {
@@ -548,7 +548,14 @@ fn fewer_bays_above_and_elevations_reach_the_pictures() {
         frame.own_beams.insert([storey, 0], None);
     }
     let page = render(&run.page());
-    assert!(page.contains("\"tops\":[6,10,10,10]"));
+    let all = |top: usize| {
+        (1..=top)
+            .map(|storey| storey.to_string())
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    let [low, high] = [6, 10].map(all);
+    assert!(page.contains(&format!("\"columns\":[[{low}],[{high}],[{high}],[{high}]]")));
     assert!(page.contains("\"elevation\":-1.5"));
     assert!(page.contains("elevation of the base") && page.contains("7–10: –"));
 }

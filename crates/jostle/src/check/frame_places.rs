@@ -24,7 +24,7 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
         ));
     }
     for storey in 0..storeys {
-        if frame.joints(storey + 1) == 0 {
+        if frame.columns_in(storey) == 0 {
             faults.add(column.as_str(), format!(
                 "leaves storey {} without any column: leave out the storeys above the roof, or omit fewer columns",
                 storey + 1
@@ -37,8 +37,17 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
         .map(|(place, _)| place)
         .filter(|[storey, line]| *storey > 0 && frame.column(storey - 1, *line).is_none());
     for [storey, line] in unsupported {
+        let (fault, remedy) = if frame.wall([storey, line]).is_some() {
+            ("a wall cannot start on a beam", "")
+        } else if !frame.beams_cross(storey, line) {
+            let fault =
+                "a column that starts on a beam needs beams in the bays on both sides of it";
+            (fault, ", add the beams")
+        } else {
+            continue;
+        };
         faults.add(format!("{column}[{storey}][{line}]"), format!(
-            "line {} has a column in storey {} but none in storey {storey}; a column that starts on a beam is not modelled: add the column below, or omit this one",
+            "line {} has a column in storey {} but none in storey {storey}; {fault}: add the column below{remedy}, or omit this one",
             line + 1,
             storey + 1
         ));
@@ -52,7 +61,7 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
     for &[floor, bay] in &beams {
         if let Some(line) = hanging([floor, bay]) {
             faults.add(format!("{beam}[{floor}][{bay}]"), format!(
-                "bay {} has a beam at floor {} but line {} no joint there, as no column stands below it: omit the beam, or add the column",
+                "bay {} has a beam at floor {} but line {} no joint there, as neither a column stands below it nor the beam of a further bay meets it: omit the beam, or add the column",
                 bay + 1,
                 floor + 1,
                 line + 1
@@ -70,7 +79,7 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
             .into_iter()
             .find(|line| !frame.has_joint(floor + 1, *line));
         let why = match without {
-            Some(line) => format!("no column stands below it at line {}", line + 1),
+            Some(line) => format!("it has no joint at line {}", line + 1),
             None => format!("no beam crosses bay {}", bay + 1),
         };
         faults.add(format!("{beam}[{floor}][{bay}]"), format!(
@@ -146,7 +155,7 @@ pub(super) fn fault_of_diagonal(frame: &Frame, place: DiagonalPlace) -> Option<S
     let mut loose = [(low, lower), (high, upper)].into_iter();
     let (floor, line) = loose.find(|(floor, line)| !frame.has_joint(*floor, *line))?;
     Some(format!(
-        "{place} ends at floor {floor} of line {}, where there is no joint; leave it out there, or add the column",
+        "{place} ends at floor {floor} of line {}, where there is no joint; leave it out there, or add the column or the beams",
         line + 1
     ))
 }

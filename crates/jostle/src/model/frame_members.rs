@@ -99,17 +99,35 @@ impl Frame {
         self.columns.iter_mut().chain(own_columns)
     }
 
-    /// Whether a floor, counted from 1, has a joint at a column line, counted from 0; whether a column stands there, for floor 0.
+    /// Whether a floor, counted from 1, has a joint at a column line, counted from 0: a column stands below it, or the beams of two bays
+    /// meet there. For floor 0, whether a column stands there.
     #[must_use]
     pub fn has_joint(&self, floor: usize, line: usize) -> bool {
-        self.column(floor.saturating_sub(1), line).is_some()
+        self.column(floor.saturating_sub(1), line).is_some() || self.beams_cross(floor, line)
     }
 
-    /// Number of joints of a floor, counted from 1.
+    /// Whether a floor, counted from 1, has beams on both sides of a column line, counted from 0.
     #[must_use]
-    pub fn joints(&self, floor: usize) -> usize {
-        (0..self.lines())
-            .filter(|line| self.has_joint(floor, *line))
+    pub fn beams_cross(&self, floor: usize, line: usize) -> bool {
+        let (Some(floor), Some(before)) = (floor.checked_sub(1), line.checked_sub(1)) else {
+            return false;
+        };
+        self.beam(floor, before).is_some() && self.beam(floor, line).is_some()
+    }
+
+    /// Whether a beam is continuous over a column line, counted from 0: at that floor, counted from 1, no column ends there.
+    #[must_use]
+    pub fn is_continuous(&self, floor: usize, line: usize) -> bool {
+        let ends = |storey| self.column(storey, line).is_some();
+        !ends(floor.saturating_sub(1)) && !ends(floor)
+    }
+
+    /// Number of columns of a storey, counted from 0.
+    #[must_use]
+    pub fn columns_in(&self, storey: usize) -> usize {
+        let lines = 0..self.lines();
+        lines
+            .filter(|line| self.column(storey, *line).is_some())
             .count()
     }
 
@@ -132,15 +150,13 @@ impl Frame {
         [sum(&self.spans[..first]), sum(&self.spans[last..])]
     }
 
-    /// Number of storeys in which a column stands, by column line.
+    /// Storeys in which a column stands, counted from 1, by column line.
     #[must_use]
-    pub fn tops(&self) -> Vec<usize> {
-        let storeys = 0..self.columns.len();
+    pub fn storeys_of_lines(&self) -> Vec<Vec<usize>> {
+        let storeys = 1..=self.columns.len();
         let of_line = |line| {
-            storeys
-                .clone()
-                .filter(|storey| self.column(*storey, line).is_some())
-                .count()
+            let stands = |storey: &usize| self.column(storey - 1, line).is_some();
+            storeys.clone().filter(stands).collect()
         };
         (0..self.lines()).map(of_line).collect()
     }

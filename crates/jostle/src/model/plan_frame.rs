@@ -305,7 +305,7 @@ impl PlanFrame {
         let k = frame.column_segments.max(1);
         for storey in 0..frame.storey_heights.len().min(levels.len() - 1) {
             let (below, above) = (storey, storey + 1);
-            let joints = frame.joints(storey + 1);
+            let columns = frame.columns_in(storey);
             for (line, along) in lines.iter().enumerate() {
                 let Some(column) = frame.column(storey, line) else {
                     continue;
@@ -323,7 +323,7 @@ impl PlanFrame {
                     add(above, BOTH_WAYS, end);
                 }
                 let floor_mass = frame.floor_mass.get(storey).copied();
-                let joint = floor_mass.unwrap_or(0.0) / joints as f64;
+                let joint = floor_mass.unwrap_or(0.0) / columns as f64;
                 add(above, BOTH_WAYS, joint);
                 if !crossed(line) {
                     for cut in 1..k {

@@ -10,6 +10,7 @@ use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::frame_walls::InFrame;
 use super::member_forces::{FrameMember, MemberPlace};
+use super::order::{Stage, Turn};
 use super::space_frame::CondensedFrame;
 use super::space_joints::JointedFrame;
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
@@ -469,7 +470,7 @@ pub(super) fn discretize_frame(
 ) -> Discretization {
     let mut stick_model = StickModel::default();
     let lines = frame.line_positions();
-    // Joints by column line, where a column stands below; those of the ground are its feet.
+    // Joints by column line, where a column stands below or beams meet; those of the ground are its feet.
     let mut below: Vec<Option<usize>> = (0..lines.len())
         .map(|line| {
             let stands = frame.has_joint(0, line);
@@ -501,8 +502,17 @@ pub(super) fn discretize_frame(
         let outer = frame.outer_lines(storey + 1);
         let joints: Vec<Option<usize>> = (0..lines.len())
             .map(|line| {
-                let stands = frame.has_joint(storey + 1, line);
-                stands.then(|| stick_model.add_node(lines[line], height))
+                let is_joint = frame.has_joint(storey + 1, line);
+                is_joint.then(|| {
+                    let node = stick_model.add_node(lines[line], height);
+                    // Braces and columns above may meet the beam there.
+                    if frame.column(storey, line).is_none() {
+                        let stage = Some(Stage::Joints);
+                        let turn = stick_model.turn(node);
+                        stick_model.turns.insert(node, Turn { stage, ..turn });
+                    }
+                    node
+                })
             })
             .collect();
         for (line, ends) in below.iter().zip(&joints).enumerate() {
@@ -677,10 +687,11 @@ pub(super) fn discretize_frame(
                 let (floor, span) = (storey + 1, bay + 1);
                 row_places.push(SpringPlace::sliding(MemberPlace::Beam { floor, span }));
             }
-            let mut ends = [
-                stick_model.hinged(ends[0], &frame.joint),
-                stick_model.hinged(ends[1], &frame.joint),
-            ];
+            for (node, line) in ends.iter_mut().zip([bay, bay + 1]) {
+                if !frame.is_continuous(storey + 1, line) {
+                    *node = stick_model.hinged(*node, &frame.joint);
+                }
+            }
             if let Some(hysteresis) = hinges.beams.get(storey).and_then(|row| row.get(bay)) {
                 for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
                     *node = stick_model.yielding(*node, *hysteresis, end);
@@ -715,11 +726,15 @@ pub(super) fn discretize_frame(
                 elements: first..stick_model.members.len(),
             });
         }
-        let standing = frame.joints(storey + 1);
-        for &joint in joints.iter().flatten() {
-            stick_model.nodes[joint].add_mass(frame.floor_mass[storey] / standing as f64);
+        // Columns carry the floor in equal shares.
+        let columns = frame.columns_in(storey) as f64;
+        for (line, joint) in joints.iter().enumerate() {
+            let (Some(joint), Some(_)) = (*joint, frame.column(storey, line)) else {
+                continue;
+            };
+            stick_model.nodes[joint].add_mass(frame.floor_mass[storey] / columns);
             let load = frame.floor_load.get(storey).copied().unwrap_or(0.0);
-            stick_model.nodes[joint].load = load / standing as f64;
+            stick_model.nodes[joint].load = load / columns;
         }
         discretization.floors.extend(joints.iter().flatten().next());
         all_joints.push(joints.clone());

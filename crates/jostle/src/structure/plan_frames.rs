@@ -144,7 +144,7 @@ fn carry_floors(tiers: &Tiers, shared: &[SharedColumn], frame: usize, sticks: &m
     let is_doubled = |place: [usize; 2]| shared.iter().any(|column| column.lines[1] == place);
     let columns_of = |index: usize, storey: usize| {
         let frame = &tiers.frames[index].frame;
-        let reaches = move |line: &usize| frame.has_joint(storey + 1, *line);
+        let reaches = move |line: &usize| frame.column(storey, *line).is_some();
         (0..frame.lines()).filter(move |line| reaches(line) && !is_doubled([index, *line]))
     };
     let tier_frame = &tiers.frames[frame];

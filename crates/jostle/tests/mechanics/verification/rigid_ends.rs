@@ -257,6 +257,23 @@ fn uneven() -> Frame {
     frame
 }
 
+/// Three storeys and three bays: a column that starts on a beam of the first floor, and beams at the roof that meet without a column.
+fn over_beams() -> Frame {
+    let mut frame = uneven();
+    frame.storey_heights.push(3.0);
+    frame.spans = vec![5.0, 4.0, 6.5];
+    for rows in [&mut frame.columns, &mut frame.beams] {
+        rows.push(rows[1]);
+    }
+    frame.beam_mass.push(3000.0);
+    frame.floor_mass.push(2e4);
+    frame.beam_segments.push(1);
+    frame.own_columns = [([0, 1], None), ([2, 2], None)].into();
+    frame.own_beams.clear();
+    frame.rigid_zones.clear();
+    frame
+}
+
 /// A frame, all its members, those with names, and joints as floor, line and node.
 type Explicit = (Plane, Vec<Beam>, Vec<(MemberPlace, Beam)>, Vec<[usize; 3]>);
 
@@ -265,17 +282,19 @@ fn explicit(frame: &Frame) -> Explicit {
     const STIFF: f64 = 1e6;
     let mut plane = Plane::default();
     let lines = frame.line_positions();
-    let mut joints: Vec<Vec<usize>> = vec![lines.iter().map(|x| plane.node([*x, 0.0])).collect()];
+    let feet = lines.iter().map(|x| Some(plane.node([*x, 0.0])));
+    let mut joints: Vec<Vec<Option<usize>>> = vec![feet.collect()];
     let mut height = 0.0;
     for (floor, storey) in frame.storey_heights.iter().enumerate() {
         height += storey;
-        let stands = (0..lines.len()).filter(|line| frame.has_joint(floor + 1, *line));
-        joints.push(
-            stands
-                .map(|line| plane.node([lines[line], height]))
-                .collect(),
-        );
+        let joint = |line: usize| {
+            let exists = frame.has_joint(floor + 1, line);
+            exists.then(|| plane.node([lines[line], height]))
+        };
+        joints.push((0..lines.len()).map(joint).collect());
     }
+    let node = |floor: usize, line: usize| joints[floor][line].expect("a joint");
+    let zone = |place| frame.rigid_zones.get(&place).copied().unwrap_or_default();
     let (mut all, mut named) = (Vec::new(), Vec::new());
     let mut add =
         |plane: &mut Plane, place, ends: [usize; 2], arms: [[f64; 2]; 2], section: &Section| {
@@ -299,10 +318,10 @@ fn explicit(frame: &Frame) -> Explicit {
     for ([storey, line], section) in frame.all_columns() {
         let foot = match storey {
             0 => 0.0,
-            _ => frame.rigid_zones[&[storey - 1, line]][1],
+            _ => zone([storey - 1, line])[1],
         };
-        let head = frame.rigid_zones[&[storey, line]][1];
-        let ends = [joints[storey][line], joints[storey + 1][line]];
+        let head = zone([storey, line])[1];
+        let ends = [node(storey, line), node(storey + 1, line)];
         let place = MemberPlace::Column {
             line: line + 1,
             storey: storey + 1,
@@ -316,8 +335,8 @@ fn explicit(frame: &Frame) -> Explicit {
         );
     }
     for ([floor, bay], section) in frame.all_beams() {
-        let arms = [bay, bay + 1].map(|line| frame.rigid_zones[&[floor, line]][0]);
-        let ends = [joints[floor + 1][bay], joints[floor + 1][bay + 1]];
+        let arms = [bay, bay + 1].map(|line| zone([floor, line])[0]);
+        let ends = [node(floor + 1, bay), node(floor + 1, bay + 1)];
         let place = MemberPlace::Beam {
             floor: floor + 1,
             span: bay + 1,
@@ -332,9 +351,8 @@ fn explicit(frame: &Frame) -> Explicit {
     }
     let places = joints.iter().enumerate().skip(1);
     let places = places.flat_map(|(floor, row)| {
-        row.iter()
-            .enumerate()
-            .map(move |(line, node)| [floor, line, *node])
+        let joints = row.iter().enumerate();
+        joints.filter_map(move |(line, node)| Some([floor, line, (*node)?]))
     });
     let places = places.collect();
     (plane, all, named, places)
@@ -342,8 +360,17 @@ fn explicit(frame: &Frame) -> Explicit {
 
 #[test]
 fn a_frame_moves_and_bears_as_with_short_stiff_members() {
-    let frame = uneven();
+    moves_and_bears(uneven());
+}
+
+#[test]
+fn beams_bear_columns_that_start_on_them_and_meet_without_a_column() {
+    moves_and_bears(over_beams());
+}
+
+fn moves_and_bears(frame: Frame) {
     let (plane, beams, named, joints) = explicit(&frame);
+    let feet = frame.lines();
     let system = assembled(&alone(frame));
     let building = &system.buildings[0];
     let sticks = &building.structure.discretization.stick_model;
@@ -373,7 +400,7 @@ fn a_frame_moves_and_bears_as_with_short_stiff_members() {
             found.push((dof, 3 * node + component));
         }
     }
-    let expected = plane.solve(&beams, 3, &loads);
+    let expected = plane.solve(&beams, feet, &loads);
     let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load);
     let moved = moved.expect("it stands");
     let most = found
@@ -486,6 +513,69 @@ fn forces_and_energies_balance_while_it_yields() {
     for (force, storey) in sheared.into_iter().zip(storeys) {
         close(force, storey, 1e5, 1e-9, "shear of a storey");
     }
+}
+
+/// Beams that bear a column make it sink and rise with them, whether columns keep their length or hardly shorten.
+#[test]
+fn a_column_on_a_beam_bears_as_one_that_hardly_shortens() {
+    let motion = fading("along", 9.0, [2.5, 3.0], 300);
+    let shaken = |flexible: bool| {
+        let mut frame = over_beams();
+        frame.axial = Axial {
+            columns_flexible: flexible,
+            beams_flexible: false,
+        };
+        frame.floor_load = vec![1.5e5; 3];
+        for column in &mut frame.columns {
+            column.axial_rigidity = Some(1e15);
+            column.line_mass = 500.0;
+        }
+        let mut model = alone(frame);
+        let building = &mut model.buildings[0];
+        // With β, forces of columns that shorten are without their own damping.
+        building.damping = Damping::Rayleigh {
+            alpha: 0.3,
+            beta: 0.0,
+        };
+        building.gravity = Gravity {
+            preload: true,
+            p_delta: true,
+        };
+        let system = assembled(&model);
+        let outcome = run(&system, &motion, &steps(1e-3, 1));
+        let building = &system.buildings[0];
+        let states = [State::at_rest(&system, 0.0), outcome.state];
+        states.map(|state| {
+            let mut values = vec![0.0; building.members.forms.len()];
+            building.member_forces(&state, &[], 0.0, |form, value| values[form] = value);
+            let members = building.members.members.iter();
+            let forces = members.map(|member| member.sections[0].forms.map(|form| values[form]));
+            let places = building.members.members.iter().map(|member| member.place);
+            places.zip(forces).collect::<Vec<_>>()
+        })
+    };
+    let (rigid, flexible) = (shaken(false), shaken(true));
+    for (rigid, flexible) in rigid.iter().zip(&flexible) {
+        for ((place, rigid), (_, flexible)) in rigid.iter().zip(flexible) {
+            for (rigid, flexible) in rigid.iter().zip(flexible) {
+                close(*rigid, *flexible, 1e6, 1e-6, &format!("{place}"));
+            }
+        }
+    }
+    // At rest: all weight, but that of the lower halves of the lowest columns, is in the columns of the ground storey.
+    let on_beam =
+        |(place, _): &&(MemberPlace, _)| *place == MemberPlace::Column { line: 2, storey: 2 };
+    let [at_rest, _] = &rigid;
+    let [carried, ..] = at_rest.iter().find(on_beam).expect("it stands on a beam").1;
+    assert!(carried < -1e5, "{carried} N");
+    let lowest = at_rest
+        .iter()
+        .filter(|(place, _)| matches!(place, MemberPlace::Column { storey: 1, .. }));
+    let carried: f64 = lowest.map(|(_, [axial, ..])| axial).sum();
+    let columns = 500.0 * (3.0 * 0.5 * 4.0 + 4.0 * 3.2 + 3.0 * 3.0);
+    let mass = 3.0 * 2e4 + 3.0 * 3000.0 * (5.0 + 4.0 + 6.5) + columns;
+    let weight = STANDARD_GRAVITY * mass + 3.0 * 1.5e5;
+    close(carried, -weight, weight, 1e-9, "weight on the columns");
 }
 
 /// What would strike the rigid end of a column is refused; above it, the column is struck.
