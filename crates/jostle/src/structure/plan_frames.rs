@@ -198,11 +198,8 @@ impl StickModel {
     /// Appends the nodes and elements of a frame; returns the range of its members.
     fn append(&mut self, frame: StickModel, place: &Place<'_>) -> Range<usize> {
         let (nodes, members) = (self.nodes.len(), self.members.len());
-        let positions: Vec<f64> = (0..frame.nodes.len())
-            .map(|node| frame.turn(node).position)
-            .collect();
-        let heights: Vec<f64> = (0..frame.nodes.len())
-            .map(|node| frame.turn(node).height)
+        let turns: Vec<Turn> = (0..frame.nodes.len())
+            .map(|node| frame.turn(node))
             .collect();
         // Rows count displacements of nodes.
         let before = index_of((nodes, X));
@@ -230,10 +227,8 @@ impl StickModel {
                 self.ties.insert(index_of((self.nodes.len(), X)), moved);
             }
             let turn = Turn {
-                stage: None,
-                height: heights[index],
                 elevation: place.elevation,
-                position: positions[index],
+                ..turns[index]
             };
             let foot = node.support == Support::Fixed;
             let mut node = node;
