@@ -18,6 +18,9 @@ const NO_CAPACITY: f64 = 1e6;
 /// Most rows of a table.
 const MOST_ROWS: usize = 400;
 
+/// Rows of a table on paper, as in the style sheet.
+const PRINTED_ROWS: usize = 40;
+
 /// The section; `None` where no forces of members were asked for.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let asked = page.summary.buildings.iter().any(|b| !b.members.is_empty());
@@ -223,10 +226,13 @@ fn table(page: &Page, building: &BuildingSummary) -> Markup {
         (message::moment(), format::MOMENT.name()),
     ];
     html! {
-        details.peaks open[is_rated || members.iter().any(|m| hit(m) > 0.0)] {
+        details.peaks.long open[is_rated || members.iter().any(|m| hit(m) > 0.0)] {
             summary { (message::columns_and_beams_title(&building.name)) }
             @if all > MOST_ROWS {
                 p.quiet { (message::of_members_summary_json(MOST_ROWS, all)) }
+            }
+            @if members.len() > PRINTED_ROWS {
+                p.quiet.on-paper { (message::members_on_paper(PRINTED_ROWS, all)) }
             }
             div.scroll {
                 table {
@@ -303,10 +309,13 @@ fn joints(building: &BuildingSummary) -> Markup {
     let beyond = building.joints.iter().filter(|joint| ratio_of(joint) > 1.0);
     let beyond = beyond.count();
     html! {
-        details.peaks open[beyond > 0] {
+        details.peaks.long open[beyond > 0] {
             summary { (message::joints_of_beams_and_columns(&building.name, beyond, all, capacity_rule_title(rules.first().unwrap_or(&"")))) }
             @if all > MOST_ROWS {
                 p.quiet { (message::of_joints_summary_json(MOST_ROWS, all)) }
+            }
+            @if joints.len() > PRINTED_ROWS {
+                p.quiet.on-paper { (message::joints_on_paper(PRINTED_ROWS, all)) }
             }
             div.scroll {
                 table {

@@ -426,6 +426,7 @@ messages! {
     moment = "moment";
     columns_and_beams_title(name) = "Columns and beams of {name}";
     of_members_summary_json(most_rows, all) = "{most_rows} of {all} members; summary.json contains all of them.";
+    members_on_paper(printed, all) = "Printed: the first {printed} of {all} members. The page on screen and summary.json contain more.";
     member = "member";
     impacts = "impacts";
     contact_force = "contact force";
@@ -433,6 +434,7 @@ messages! {
     over_capacity = "/ capacity";
     rotation_within = "rotation within";
     joints_of_beams_and_columns(name, beyond, all, rules) = "Beam–column joints of {name}: {beyond} of {all} exceed their shear capacity by {rules}";
+    joints_on_paper(printed, all) = "Printed: the first {printed} of {all} joints. The page on screen and summary.json contain more.";
     of_joints_summary_json(most_rows, all) = "{most_rows} of {all} joints; summary.json contains all of them.";
     joint = "joint";
     shear_of_the_core = "core shear";
