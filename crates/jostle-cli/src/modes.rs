@@ -29,7 +29,7 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
     }
     let _ = writeln!(
         text,
-        "None is missing: frequencies by counting negative pivots of the\n\
+        "No mode is missing: frequencies by counting negative pivots of the\n\
          Riccati recursion (Wittrick and Williams), shapes by inverse iteration."
     );
     terminal::print(&text)

@@ -519,7 +519,7 @@ fn describe(
                 .is_some_and(|top| top.height > contact.height)
             {
                 true => format!("at {}", HEIGHT.text(contact.height, 2)),
-                false => "at the top".to_owned(),
+                false => "at the highest contact".to_owned(),
             };
             let [left, right] = contact.ports.masses().map(|mass| {
                 if mass.is_finite() {
@@ -598,10 +598,10 @@ fn parameters(link: &jostle::Link) -> String {
             let backbone = hysteresis.backbone();
             stiffness = backbone.initial();
             limits.push(match hysteresis.rule() {
-                HysteresisRule::Stop { .. } => "force on one side alone".to_owned(),
+                HysteresisRule::Stop { .. } => "compression only".to_owned(),
                 rule => {
                     let one_sided = match backbone.open_side() {
-                        Some(_) => ", on one side alone",
+                        Some(_) => ", compression only",
                         None => "",
                     };
                     let yielding = FORCE.text(backbone.yield_force(), 1);

@@ -143,7 +143,7 @@ fn write_all(
     if asks_for_codes {
         writeln!(
             text,
-            "No code is chosen: name yours with show under [codes], or see jostle gap."
+            "No code selected: list codes in show under [codes], or run jostle gap."
         )?;
     }
     if text.len() > before {

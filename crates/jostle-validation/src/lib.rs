@@ -104,8 +104,8 @@ const FAMILIES: [(&str, &str, Make); 27] = [
         "Buildings in space",
         "Buildings with rotating floors under two components of motion, with faces of several points: eccentric \
          storeys, five storeys beside three storeys that are offset in plan at 30°, and three buildings around a \
-         corner. The expected values are modal solutions in free vibration, and results of an integrator of eighth \
-         order during contact that locates every opening and closing. They were checked with fixed steps of 2 µs.",
+         corner. The expected values are modal solutions in free vibration, and during contact results of an \
+         integrator of eighth order that locates every opening and closing. They were checked with fixed steps of 2 µs.",
         |_| space::rows(),
     ),
     (

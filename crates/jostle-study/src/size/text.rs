@@ -158,7 +158,7 @@ impl SizeResults {
                 let least = if self.converged {
                     "Smallest"
                 } else {
-                    "Not converged; smallest so far of"
+                    "Not converged; smallest so far:"
                 };
                 // An objective that is the only input has said where it lies.
                 let is_input = self.inputs.len() == 1 && self.inputs[0].0 == self.objective.text;
@@ -189,7 +189,7 @@ impl SizeResults {
             format!("Stopped after {} trials.", self.trials.len())
         } else {
             let lower = match self.best() {
-                Some(_) => " The smallest may lie lower; raise --trials.",
+                Some(_) => " The true minimum may be lower; raise --trials.",
                 None => "",
             };
             format!(

@@ -55,7 +55,7 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     if let Structure::Frame(frame) = &building.structure {
         let rises = foundation.uplift.is_some();
         faults.require(rises || !frame.axial.columns_flexible, text.as_str(), || {
-            "is for columns that keep their length: leave out columns = \"flexible\", or write uplift = true".into()
+            "requires axially rigid columns: leave out columns = \"flexible\", or write uplift = true".into()
         });
     }
     faults.require(
