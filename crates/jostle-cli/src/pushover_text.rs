@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
+use jostle::structure::SpringPlace;
 
 use jostle_io::shown::{FORCE, HEIGHT, LENGTH, Shown};
 use jostle_run::{BOLD, DIM, LOUD, styled};
@@ -90,6 +91,9 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
         )?;
     }
     let [cracked, yielded] = curve.counts(springs);
+    let mut places = one.building.discretization.spring_places.iter();
+    let all = one.building.equations.yielding_places();
+    let has_fibres = places.any(|place| matches!(place, SpringPlace::Fibre { .. }));
     let ended = match curve.end {
         PushEnd::Target => String::new(),
         other => format!(" {}", styled(LOUD, &format!("Ended early: {other}."))),
@@ -115,7 +119,10 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
     writeln!(
         text,
         "  {cracked} of {} crack, {yielded} yield.{failures}{links}{ended}",
-        counted(one.building.equations.yielding_places() - shear, "hinge")
+        match has_fibres {
+            true => format!("{} hinges and fibres", all - shear),
+            false => counted(all - shear, "hinge"),
+        }
     )?;
     write_events(text, one, curve)
 }

@@ -571,6 +571,7 @@ messages! {
     one_of_all(one, all) = "{one} of {all}";
     count_cracked(cracked) = "{cracked} cracked";
     cracked_ductility(cracked, ductility) = "{cracked} cracked; ductility {ductility}";
+    ductility_of(ductility) = "ductility {ductility}";
     accuracy = "Accuracy:";
     assumptions_and_limits = "Assumptions and limits of this result";
     outside_the_model = "Outside the model: no basis for design.";

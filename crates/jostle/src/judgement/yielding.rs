@@ -56,7 +56,7 @@ pub(super) fn cracking_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         let members = [("columns", &hinges.columns), ("beams", &hinges.beams)];
         for ((name, rows), factor) in members.into_iter().zip(stated.stiffness_factor) {
-            if !rows.iter().flatten().any(cracks) {
+            if !rows.iter().flatten().any(Hysteresis::cracks) {
                 continue;
             }
             tally.add(factor, || {
@@ -68,14 +68,6 @@ pub(super) fn cracking_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
             });
         }
     }
-}
-
-/// Whether a hinge loses stiffness before it yields.
-fn cracks(hinge: &Hysteresis) -> bool {
-    Side::BOTH.into_iter().any(|side| {
-        let side = hinge.backbone().side(side);
-        side.cracking.force < side.yielding.force
-    })
 }
 
 /// Greatest ductility of the hinges or storeys of a building.
