@@ -233,15 +233,15 @@ const FAMILIES: [(&str, &str, Make); 27] = [
     ),
     (
         "Yielding walls in plan in OpenSees",
-        "Two storeys on eccentric walls at points of the plan, each of which yields along x and y. Two sines act as \
-         ground motion, and the step is 0.5 ms. The reference is a separate OpenSees script with the same method and \
+        "Two storeys on eccentric walls at points of the plan, each of which yields along x and y. One sine acts along x, another along \
+         y, and the step is 0.5 ms. The reference is a separate OpenSees script with the same method and \
          steps; its walls are Steel01 springs at points that rigidLink ties to the floors.",
         |_| yielding_in_plan::rows(),
     ),
     (
         "A yielding space frame in OpenSees",
         "Two storeys on four columns, one of which is stronger, with an eccentric mass, and hinges about both axes at \
-         all ends of columns and at the ends of beams. Two sines act as ground motion, and the step is 1 ms. The \
+         all ends of columns and at the ends of beams. One sine acts along x, another along y, and the step is 1 ms. The \
          reference is a separate OpenSees script with the same method and steps; it has Steel01 hinges between joints \
          and elasticBeamColumn members, and rigidDiaphragm floors.",
         |_| yielding_in_plan::space_frame_rows(),
