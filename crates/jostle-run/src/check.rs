@@ -32,7 +32,7 @@ use serde::Serialize;
 
 use crate::checks_text::finding_with_remedy;
 use crate::error::RunError;
-use crate::numbers::{counted, grouped, mm, prefixed};
+use crate::numbers::{counted, grouped, prefixed};
 use crate::opened::Opened;
 use crate::style::{BOLD, LOUD, styled};
 
@@ -447,6 +447,8 @@ fn describe(
             .collect();
         let [left, right] = names(system, gap.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
+        // A tenth of a millimetre means nothing in a gap of metres.
+        let mm = |width: f64| LENGTH.number(width, usize::from(width < 1.0));
         let widths: Vec<String> = contacts.iter().map(|contact| mm(contact.width)).collect();
         if system.is_in_space() {
             let on_columns = |contact: &&&Contact| {
@@ -455,7 +457,7 @@ fn describe(
             };
             let columns = contacts.iter().filter(on_columns).count();
             let faces = faces_among(&contacts) - columns;
-            let mut parts = vec![LENGTH.text(gap.width(), 1)];
+            let mut parts = vec![format!("{} {}", mm(gap.width()), LENGTH.name())];
             if faces > 0 || columns == 0 {
                 let points = gap.in_plan.points;
                 parts.push(format!(
