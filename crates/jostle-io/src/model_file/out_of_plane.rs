@@ -85,7 +85,8 @@ fn strength(
         }
         (None, Some(stated)) => {
             if let Some(field) = compression {
-                *reader.bad(&field, "has no meaning beside strength") = Some("leave it out".into());
+                *reader.bad(&field, "has no meaning together with strength") =
+                    Some("leave it out".into());
             }
             reader
                 .positive(&stated, Dimension::Stress)

@@ -420,7 +420,7 @@ fn profiles_bend_about_both_axes_and_do_not_crack() {
         "size = [\"0.5 m\", \"0.4 m\"]",
         "size = [1, 1], profile = \"HEB300\"",
     );
-    assert!(refusal(&text).contains("stands beside size"));
+    assert!(refusal(&text).contains("is given together with size"));
     let text = SPACE.replace(
         "size = [\"0.5 m\", \"0.4 m\"]",
         "size = [1, 1], axis = \"weak\"",

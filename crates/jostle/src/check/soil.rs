@@ -21,7 +21,8 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
         ..Base::default()
     };
     faults.require(building.base == plain, text.as_str(), || {
-        "cannot stand beside base or isolation: the soil is the base; leave out one of them".into()
+        "cannot be combined with base or isolation: the soil is the base; leave out one of them"
+            .into()
     });
     let (has_floors, has_plan) = match &building.structure {
         Structure::Frame(_) | Structure::Shear(_) => (true, false),
