@@ -532,7 +532,7 @@ fn describe(
             });
             writeln!(
                 text,
-                "  colliding masses {place} {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
+                "  colliding masses {place}: {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
                 SPEED.text(0.5, 1),
                 contact.law.elastic_duration(contact.effective_mass(), 0.5) * 1e3
             )?;

@@ -1,7 +1,7 @@
 //! A9, A10, B3, B4 and B5: what yields, and what would.
 
 use super::{Known, Tally, quoted};
-use crate::hysteresis::{Hysteresis, Side};
+use crate::hysteresis::Hysteresis;
 use crate::interface::PlanPart;
 use crate::linear::sort_by;
 use crate::model::{
