@@ -92,7 +92,7 @@ fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std
         let sway = if mode.is_lateral() {
             shape.join(" ")
         } else {
-            let has_beams = !building.discretization.stick_model.members.is_empty();
+            let has_beams = !building.discretization.members.is_empty();
             let what = match has_beams && building.foundation.is_none() {
                 true => "beams",
                 false => "less than 1 % of the mass",
