@@ -68,8 +68,14 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
         None => writeln!(text, "  {name:<12}{:>12}", "none"),
     };
     let springs = one.building.equations.springs.len();
+    let mut places = one.building.discretization.spring_places.iter();
+    let has_fibres = places.any(|place| matches!(place, SpringPlace::Fibre { .. }));
+    let mut laws = one.building.equations.springs.iter();
+    let cracks = has_fibres || laws.any(|spring| spring.hysteresis.cracks());
     if !one.is_elastic() {
-        row("first crack", curve.first(Stage::Cracked))?;
+        if cracks {
+            row("first crack", curve.first(Stage::Cracked))?;
+        }
         row("first yield", curve.first(Stage::Yielded))?;
         row("greatest", Some(curve.peak()))?;
     }
@@ -91,9 +97,6 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
         )?;
     }
     let [cracked, yielded] = curve.counts(springs);
-    let mut places = one.building.discretization.spring_places.iter();
-    let all = one.building.equations.yielding_places();
-    let has_fibres = places.any(|place| matches!(place, SpringPlace::Fibre { .. }));
     let ended = match curve.end {
         PushEnd::Target => String::new(),
         other => format!(" {}", styled(LOUD, &format!("Ended early: {other}."))),
@@ -116,14 +119,16 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             counted(links, "link")
         ),
     };
-    writeln!(
-        text,
-        "  {cracked} of {} crack, {yielded} yield.{failures}{links}{ended}",
-        match has_fibres {
-            true => format!("{} hinges and fibres", all - shear),
-            false => counted(all - shear, "hinge"),
-        }
-    )?;
+    let all = one.building.equations.yielding_places() - shear;
+    let all = match has_fibres {
+        true => format!("{all} hinges and fibres"),
+        false => counted(all, "hinge"),
+    };
+    let damage = match cracks {
+        true => format!("{cracked} of {all} crack, {yielded} yield"),
+        false => format!("{yielded} of {all} yield"),
+    };
+    writeln!(text, "  {damage}.{failures}{links}{ended}")?;
     write_events(text, one, curve)
 }
 
