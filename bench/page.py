@@ -151,7 +151,7 @@ def limits(results, study, whole):
     yielding = row("inelastic", "riccati")
     if yielding:
         lines.append(
-            f"- *Yielding frames* solve for 260 and 770 displacements in each of {yielding['steps']} steps, and change the factors {yielding['factorisations']} times because hinges change their stiffness. "
+            f"- *Yielding frames* solve for 260 and 770 displacements in each of {yielding['steps']} steps, and update the factors {yielding['factorisations']} times because hinges change their stiffness. "
             "The aim of 1 000 times would require longer steps in which changes of hinges are located, or steps for the displacements of joints only."
         )
     pairs = whole.get("pairs")

@@ -104,7 +104,7 @@ def draw(found):
             x = [value for value, _ in runs]
             plot.loglog(x, [1e3 * run["cpu_s"] for _, run in runs], "o-", color=COLOURS[solver], label=solver)
         plot.set_xlabel(axis)
-        plot.set_ylabel("time of stepping [ms]")
+        plot.set_ylabel("computing time of the time steps [ms]")
         plot.set_title(title, fontsize=10)
         if name == "tolerance":
             plot.invert_xaxis()

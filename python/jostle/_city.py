@@ -279,7 +279,7 @@ class CitySummary:
         moderate: the same with neighbours.
         worse: fraction of samples in which contact worsens the damage state.
         better: fraction of samples in which contact improves the damage state.
-        sample_rows: rows that were run again in full.
+        sample_rows: rows that were repeated with the standard solvers.
         sample_within: fraction of the peaks of these rows within the tolerance; ``None`` if there are none.
         sample_worst: greatest deviation; ``None`` if there are none.
 

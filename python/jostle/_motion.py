@@ -141,8 +141,8 @@ class Motion:
 
         Args:
             path: the file, or the name of a built-in record.
-            unit: unit of the values of a text file that does not state it.
-            step: time step of a text file that does not state it.
+            unit: unit of the values of a text file that does not state it; it overrides that of AT2 files and columns of text.
+            step: time step of a text file that does not state it; it overrides that of AT2 files.
             column: column of the acceleration in a text file, from 1.
             component: channel of a file with several: its name, a direction such as ``"N-S"``, or its number.
             read: how the lines of a text file are read, as ``read`` in model files: ``skip``, ``last``, ``per_line``,

@@ -45,11 +45,11 @@ class Floor:
         velocity: relative to the ground [m/s].
         total_acceleration: ground included [m/s²].
         displacement_across: displacement across the row [m]; this and the following attributes are ``None`` without a plan.
-        velocity_across: its rate [m/s].
+        velocity_across: velocity across the row, relative to the ground [m/s].
         total_acceleration_across: across, ground included [m/s²].
         rotation: counter-clockwise seen from above [rad].
-        rotation_rate: its rate [rad/s].
-        rotation_acceleration: the rate of that [rad/s²].
+        rotation_rate: rotation rate [rad/s].
+        rotation_acceleration: rotational acceleration [rad/s²].
 
     Examples:
         >>> import jostle

@@ -267,7 +267,7 @@ impl City {
                 "Struck by a neighbour",
                 percent(struck),
                 format!(
-                    "of buildings with a neighbour, gaps with a median of {median}; {} with half of it, {} with double",
+                    "of buildings with a neighbour, median gap {median}; {} with half the median gap, {} with twice",
                     percent(half),
                     percent(twice)
                 ),
@@ -360,16 +360,16 @@ impl City {
                     canvas #map aria-label="Map of the buildings" {}
                     aside #detail {}
                 }
-                p.quiet.screen { "The slider redraws the probability of a strike from the closing of the free buildings: no run is needed for other gaps. "
+                p.quiet.screen { "The slider redraws the probability of an impact from the closing without contact: no run is needed for other gaps. "
                     "Other layers are shares of the samples that were run: one sample of a building is "
                     (percent(1.0 / (self.file.draws as f64 * motions.len() as f64).max(1.0))) "." }
             }
             section {
                 h2 { "Pairs to look at first" }
                 p.quiet {
-                    "Counts are of samples: draws of gaps and buildings, times motions. The probability of a strike also averages over the gaps that were not drawn. "
+                    "Counts are of samples: draws of gaps and buildings, times motions. The probability of an impact also averages over the gaps that were not drawn. "
                     "Worse: contact brings either building into a worse state, also by other neighbours in its row. "
-                    "Ranked by four times the share of worse samples, twice the share with strikes on columns, and the probability of a strike. All " (order.len())
+                    "Ranked by four times the share of worse samples, twice the share with impacts on columns, and the probability of an impact. All " (order.len())
                     " pairs are in worst-pairs.csv. Any of them becomes a model file by " code { "jostle city model FOLDER --pair NUMBER --draw 0" } "."
                     @if !links.is_empty() {
                         " Run opens a pair here in the browser, in the draw that shows most of what contact does to it; every number can be changed there."

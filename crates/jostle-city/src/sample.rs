@@ -26,7 +26,9 @@ impl Sampled {
         stop: &dyn Fn() -> bool,
     ) -> Result<(), CityError> {
         let found = both_ways(row, motion, options, stop).map_err(|problem| {
-            CityError::Analysis(format!("{title}, run again in full: {problem}"))
+            CityError::Analysis(format!(
+                "{title}, repeated with the standard solvers: {problem}"
+            ))
         })?;
         let found = found.ok_or(CityError::Stopped)?;
         self.rows += 1;

@@ -103,7 +103,8 @@ pub(crate) struct RunArgs {
     /// Without a rule: all rules, if ties are known
     #[arg(long, value_name = "RULE", num_args = 0..=1, default_missing_values = ShearRule::ALL.map(ShearRule::name), value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
     pub(crate) capacity: Vec<String>,
-    /// Also run at both ends of the advised contact stiffness and with restitution ± 0.15, and report the spread
+    /// Also run at both ends of the recommended range of contact stiffness and with restitution ± 0.15, and report
+    /// the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,
     /// Add the derivative of every peak with respect to these values of the model file, such as gap[0].width,motion.pga, and the
@@ -141,7 +142,7 @@ pub(crate) struct RunArgs {
 /// Equations that advance a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum SolverName {
-    /// With automatic steps modal for elastic buildings and series for shear buildings that yield; otherwise riccati
+    /// With automatic steps: modal for elastic buildings, and series for shear buildings that yield; otherwise riccati
     Auto,
     /// Riccati transfer recursion
     Riccati,

@@ -430,7 +430,7 @@ fn described(city: &City, answers: &Answers) -> String {
     );
     let _ = writeln!(
         text,
-        "  struck by a neighbour: {:.1} % of them (gaps with a median of {}; half of it {:.1} %, double {:.1} %)",
+        "  struck by a neighbour: {:.1} % of them (median gap {}; with half the median gap {:.1} %, with twice {:.1} %)",
         middle,
         LENGTH.text(city.file.gap_median, 0),
         half,
@@ -444,7 +444,7 @@ fn described(city: &City, answers: &Answers) -> String {
     let _ = writeln!(
         text,
         "  moderate damage and worse: {:.1} % alone, {:.1} % with neighbours; contact worsens the state in {:.1} % of the \
-         samples and spares one in {:.1} %",
+         samples and improves it in {:.1} %",
         moderate[0],
         moderate[1],
         100.0 * answers.changed[0],
@@ -453,7 +453,7 @@ fn described(city: &City, answers: &Answers) -> String {
     if let Some((within, worst)) = answers.sampled.within(city.file.tolerance) {
         let _ = writeln!(
             text,
-            "  {} again in full: {:.1} % of their peaks within {}, largest difference {worst:.1e}",
+            "  {} repeated with the standard solvers: {:.1} % of their peaks within {}, largest difference {worst:.1e}",
             counted(answers.sampled.rows, "row"),
             100.0 * within,
             city.file.tolerance

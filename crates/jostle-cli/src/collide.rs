@@ -85,7 +85,7 @@ fn describe(text: &mut String, collisions: &Collisions, args: &CollideArgs) -> s
     };
     let loses = match (&args.damping, collisions.restitution) {
         (None, Some(e)) => format!("restitution {e} ({by_coefficient})"),
-        (None, None) => "as the formula says".to_owned(),
+        (None, None) => "by the formula".to_owned(),
         (damping, _) => format!("dashpot {}", damping.as_deref().unwrap_or_default()),
     };
     let mass = MASS.name();

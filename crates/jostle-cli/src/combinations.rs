@@ -191,7 +191,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "contact dashpot", gap: "law = \"kelvin-no-tension\"\nstiffness = \"400 MN/m\"\ndamping = \"1.1 MN.s/m\"\n", ..USUAL },
         Feature { name: "crushing gap", gap: "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 0.05 }\n", ..USUAL },
         Feature { name: "rigid wall", more: "[[gap]]\nbetween = [\"wall\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
-        Feature { name: "wall that gives way", more: "[[wall]]\nname = \"moat\"\nstiffness = \"120 MN/m\"\nmass = \"25 t\"\n[[gap]]\nbetween = [\"moat\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
+        Feature { name: "flexible wall", more: "[[wall]]\nname = \"moat\"\nstiffness = \"120 MN/m\"\nmass = \"25 t\"\n[[gap]]\nbetween = [\"moat\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
         link("linear link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nstiffness = \"20 MN/m\"\n"),
         link("viscous link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nlaw = \"viscous\"\ndamping = \"200 kN.s/m\"\n"),
         link("yielding link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nlaw = \"yielding\"\nstiffness = \"20 MN/m\"\nhinge = { rule = \"bilinear\", yield = \"100 kN\", post_yield = 0.05 }\n"),
@@ -203,27 +203,27 @@ fn features() -> Vec<Feature> {
         Feature { name: "braces over several storeys", tables: "[[building.brace]]\nfrom = \"0.1\"\nto = \"2.2\"\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "infill panels that fall out", tables: "[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = 0.2\nwidth = \"mainstone\"\nout_of_plane = { strength = \"4 kPa\", density = 1400, remove = true }\n", ..USUAL },
-        Feature { name: "struts off the joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },
+        Feature { name: "struts between joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },
         Feature { name: "walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\n", ..USUAL },
         Feature { name: "walls that yield at the ends of every storey", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\nhinge = { rule = \"bilinear\", ends = \"all\", initial = 100, yield = \"2 MN.m\", post_yield = 0.02 }\n", keys: OWN_WORDS, ..USUAL },
-        Feature { name: "walls whose feet are fibres", tables: "[[building.wall]]\nline = 1\nlength = 2\nthickness = 0.25\nconcrete = \"C30\"\nsteel = \"HRB400\"\nbars = { edges = \"6 d16\", edge_length = 0.4, web = \"8 d10\" }\nhinge = { rule = \"fibre\", length = 0.5 }\n", keys: "gravity = true\n", ..USUAL },
+        Feature { name: "fibre sections at the feet of walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nthickness = 0.25\nconcrete = \"C30\"\nsteel = \"HRB400\"\nbars = { edges = \"6 d16\", edge_length = 0.4, web = \"8 d10\" }\nhinge = { rule = \"fibre\", length = 0.5 }\n", keys: "gravity = true\n", ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
-        Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
+        Feature { name: "fibre columns", keys: FIBRES, ..USUAL },
         Feature { name: "columns that yield on a surface of axial force and moment", keys: SURFACES, ..USUAL },
         Feature { name: "connections of beams that yield", keys: JOINT, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
-        Feature { name: "limits of rotation", keys: OWN_WORDS, tables: "[[building.rotation_limit]]\nof = \"columns\"\nlimits = { io = 0.005 }\n", ..USUAL },
+        Feature { name: "rotation limits", keys: OWN_WORDS, tables: "[[building.rotation_limit]]\nof = \"columns\"\nlimits = { io = 0.005 }\n", ..USUAL },
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
         Feature { name: "base that sways, rocks and twists", keys: "base = { horizontal_stiffness = \"400 MN/m\", rotational_stiffness = \"9 GN.m/rad\", torsional_stiffness = \"9 GN.m/rad\" }\n", ..USUAL },
         Feature { name: "bearings", tables: "[building.isolation]\nkind = \"lead-rubber\"\nmat_mass = \"50 t\"\nstiffness = \"20 MN/m\"\nyield = \"60 kN\"\npost_yield = 0.1\n", ..USUAL },
         Feature { name: "triple friction pendulums", tables: "[building.isolation]\nkind = \"triple-friction-pendulum\"\nmat_mass = \"50 t\"\nradius = [2.1, 0.3, 0.3, 2.1]\nfriction = [0.04, 0.015, 0.015, 0.08]\ncapacity = [0.3, 0.05, 0.05, 0.3]\n", ..USUAL },
         Feature { name: "foundation on soil", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\n", more: "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n", ..USUAL },
-        Feature { name: "foundation that lifts off", keys: "gravity = true\n", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\nuplift = true\nsprings = 5\nvertical_stiffness = \"900 MN/m\"\n", ..USUAL },
-        Feature { name: "feet of columns that lift off", keys: "gravity = true\nbase = { vertical_stiffness = \"400 MN/m\", uplift = true }\n", ..USUAL },
+        Feature { name: "foundation with uplift", keys: "gravity = true\n", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\nuplift = true\nsprings = 5\nvertical_stiffness = \"900 MN/m\"\n", ..USUAL },
+        Feature { name: "column uplift", keys: "gravity = true\nbase = { vertical_stiffness = \"400 MN/m\", uplift = true }\n", ..USUAL },
         Feature { name: "P-Delta", keys: "p_delta = true\n", ..USUAL },
         Feature { name: "run that starts under self weight", keys: "gravity = true\n", ..USUAL },
         Feature { name: "one damping ratio for all modes", keys: "damping = { ratio = 0.05, modes = \"all\" }\n", ..USUAL },
-        Feature { name: "shaking from two sides", motion: "angle = \"30 deg\"\n", ..USUAL },
+        Feature { name: "two horizontal components", motion: "angle = \"30 deg\"\n", ..USUAL },
         Feature { name: "vertical shaking", motion: "vertical = { kind = \"sine\", amplitude = 1, period = 0.1 }\n", ..USUAL },
         Feature { name: "vertical shaking of a building under self weight", keys: "gravity = true\n", motion: "vertical = { kind = \"sine\", amplitude = 1, period = 0.1 }\n", ..USUAL },
         Feature { name: "different motion under each building", keys: "motion = { arrival = \"40 ms\" }\n", ..USUAL },
@@ -396,7 +396,7 @@ fn model(kind: usize, feature: &Feature) -> String {
             (true, "space-frame") if feature.name.starts_with("walls that yield") => {
                 format!("{WALL_OF_A_GRID}hinge = {{ yield = \"2 MN.m\", post_yield = 0.02 }}\n")
             }
-            (true, "space-frame") if feature.name.starts_with("walls whose feet") => {
+            (true, "space-frame") if feature.name.starts_with("fibre sections") => {
                 let own = feature
                     .tables
                     .split_once("concrete")
@@ -491,7 +491,7 @@ fn line_of(error: &jostle_io::InputError) -> String {
             || fault.problem.starts_with(key)
         {
             true => fault.problem.clone(),
-            false => format!("{key} {}", fault.problem),
+            false => format!("{key}: {}", fault.problem),
         }
     }))
 }

@@ -90,7 +90,7 @@ pub(crate) enum Command {
     Size(Box<crate::size::SizeArgs>),
     /// Open a local page that runs the model after every change
     Live(crate::live::LiveArgs),
-    /// Serve check, run, gap, study and explain to an assistant, with the Model Context Protocol over standard input and output
+    /// Serve check, run, gap, study, explain and schema to an assistant, with the Model Context Protocol over standard input and output
     Mcp(crate::mcp::McpArgs),
     /// Run a pushover analysis to a target drift or loss of strength
     Pushover(PushoverArgs),

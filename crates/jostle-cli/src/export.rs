@@ -16,7 +16,7 @@ pub(crate) struct ExportArgs {
     /// Program to write for
     #[arg(long, value_enum)]
     to: Target,
-    /// File for a script, or folder for matrices. A script without a file is printed
+    /// File for a script, or folder for matrices. Without a file, the script is printed
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Replace the file even if jostle did not write it

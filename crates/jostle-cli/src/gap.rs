@@ -282,7 +282,7 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
         fewest = fewest.min(records);
         if records > 1 {
             text += &format!(
-                "\n{} over {}, the greater of both signs: greatest {}, mean {}, standard deviation {}\n",
+                "\n{} over {}, the larger of the two signs: greatest {}, mean {}, standard deviation {}\n",
                 set.governing.between.join(" ↔ "),
                 counted(records, "record"),
                 required_width(set.governing.of_both_signs_m()),

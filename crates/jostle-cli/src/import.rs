@@ -185,8 +185,8 @@ fn write(args: &TableArgs, imported: &Imported) -> Result<String, Failure> {
     let mut text = String::new();
     for (title, lines) in [
         ("Read", &imported.read),
-        ("To know", &imported.remarks),
-        ("Not carried over", &imported.left_out),
+        ("Assumptions", &imported.remarks),
+        ("Not imported", &imported.left_out),
     ] {
         if lines.is_empty() {
             continue;
@@ -299,7 +299,7 @@ fn compare(text: &mut String, name: &str, periods: &[f64], source: Option<&Build
     if most.abs() > 0.05 {
         let _ = writeln!(
             text,
-            "  {} the first period differs by {:+.1} %: see \"To know\" and \"Not carried over\"",
+            "  {} the first period differs by {:+.1} %: see \"Assumptions\" and \"Not imported\"",
             styled(LOUD, "warning:"),
             most * 100.0
         );

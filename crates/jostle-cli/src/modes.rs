@@ -29,7 +29,7 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
     }
     let _ = writeln!(
         text,
-        "None is missing: frequencies by counting negative pivots of the\n\
+        "No mode is missing: frequencies by counting negative pivots of the\n\
          Riccati recursion (Wittrick and Williams), shapes by inverse iteration."
     );
     terminal::print(&text)
@@ -92,9 +92,10 @@ fn describe(text: &mut String, building: &BuildingSystem, modes: &[Mode]) -> std
         let sway = if mode.is_lateral() {
             shape.join(" ")
         } else {
-            let what = match building.foundation.is_some() {
-                true => "hardly any sway",
-                false => "beams",
+            let has_beams = !building.discretization.members.is_empty();
+            let what = match has_beams && building.foundation.is_none() {
+                true => "beams",
+                false => "less than 1 % of the mass",
             };
             styled(DIM, what)
         };

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
+use jostle::structure::SpringPlace;
 
 use jostle_io::shown::{FORCE, HEIGHT, LENGTH, Shown};
 use jostle_run::{BOLD, DIM, LOUD, styled};
@@ -67,8 +68,14 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
         None => writeln!(text, "  {name:<12}{:>12}", "none"),
     };
     let springs = one.building.equations.springs.len();
+    let mut places = one.building.discretization.spring_places.iter();
+    let has_fibres = places.any(|place| matches!(place, SpringPlace::Fibre { .. }));
+    let mut laws = one.building.equations.springs.iter();
+    let cracks = has_fibres || laws.any(|spring| spring.hysteresis.cracks());
     if !one.is_elastic() {
-        row("first crack", curve.first(Stage::Cracked))?;
+        if cracks {
+            row("first crack", curve.first(Stage::Cracked))?;
+        }
         row("first yield", curve.first(Stage::Yielded))?;
         row("greatest", Some(curve.peak()))?;
     }
@@ -112,11 +119,16 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             counted(links, "link")
         ),
     };
-    writeln!(
-        text,
-        "  {cracked} of {} crack, {yielded} yield.{failures}{links}{ended}",
-        counted(one.building.equations.yielding_places() - shear, "hinge")
-    )?;
+    let all = one.building.equations.yielding_places() - shear;
+    let all = match has_fibres {
+        true => format!("{all} hinges and fibres"),
+        false => counted(all, "hinge"),
+    };
+    let damage = match cracks {
+        true => format!("{cracked} of {all} crack, {yielded} yield"),
+        false => format!("{yielded} of {all} yield"),
+    };
+    writeln!(text, "  {damage}.{failures}{links}{ended}")?;
     write_events(text, one, curve)
 }
 

@@ -38,7 +38,7 @@ pub(crate) struct SizeArgs {
     /// Scale the motions to this peak ground acceleration
     #[arg(long, value_name = "QUANTITY")]
     pga: Option<String>,
-    /// Run every motion in both directions: each counts as two records
+    /// Run every motion with both signs: each counts as two records
     #[arg(long)]
     both_signs: bool,
     /// With several records, use the worst or the mean

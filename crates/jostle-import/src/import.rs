@@ -460,8 +460,8 @@ fn model_text(
         }
     };
     list("Read:", &imported.read);
-    list("To know:", &imported.remarks);
-    list("Not carried over:", &imported.left_out);
+    list("Assumptions:", &imported.remarks);
+    list("Not imported:", &imported.left_out);
     let _ = write!(
         text,
         "title = {}\n\n[motion]                          # replace by your own\nrecord = \"el-centro-1940-ns\"\npga = \"0.2 g\"\n{blocks}",

@@ -694,6 +694,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
 fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault>) {
     let mut seen: BTreeSet<String> = reader.faults().map(|fault| fault.path.clone()).collect();
     let building_is_bad = seen.iter().any(|path| path.starts_with("building"));
+    let foundation_is_bad = seen.iter().any(|path| path.contains("].foundation"));
     for fault in faults {
         let (span, path) = locate(root, &fault.path);
         // One value for all storeys gives one fault per storey.
@@ -701,7 +702,9 @@ fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault
             continue;
         }
         // With a replaced value in a building, floor heights mean nothing.
-        let follows = building_is_bad && path.contains(".floors");
+        let follows = building_is_bad && path.contains(".floors")
+            // A foundation with a fault is missing from the model.
+            || foundation_is_bad && path == "soil";
         let known = seen
             .iter()
             .any(|other| is_within(&path, other) || is_within(other, &path));

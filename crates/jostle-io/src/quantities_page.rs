@@ -47,7 +47,12 @@ fn write_owner(page: &mut String, owner: &Owner) -> std::fmt::Result {
         places.push(format!("`{key}` in `{file}`"));
     }
     if let Some(table) = owner.table {
-        places.push(format!("one row each in `{table}`"));
+        places.push(match owner.key {
+            "buildings[].hinges.list[]" => format!(
+                "`{table}` has all hinges, and `summary.json` those that cracked or yielded"
+            ),
+            _ => format!("one row each in `{table}`"),
+        });
     }
     let in_study = owner.entries.iter().any(|entry| entry.places.study);
     if in_study && !owner.study.is_empty() {

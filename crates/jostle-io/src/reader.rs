@@ -623,7 +623,13 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
     match nearest(key, keys_of(sections).map(|key| key.name)) {
         Some(name) => format!("did you mean \"{name}\"?"),
         None => {
-            let names: Vec<_> = keys_of(sections).map(|key| key.name).collect();
+            // Sections may share a key.
+            let mut names: Vec<&str> = Vec::new();
+            for key in keys_of(sections) {
+                if !names.contains(&key.name) {
+                    names.push(key.name);
+                }
+            }
             format!("known here: {}", names.join(", "))
         }
     }

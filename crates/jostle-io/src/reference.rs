@@ -479,7 +479,7 @@ pub fn model_reference() -> String {
                 "| `{}` | {} | {default} | {} |",
                 key.name,
                 value(key),
-                key.doc
+                key.doc.replace('|', "\\|")
             );
         }
     }

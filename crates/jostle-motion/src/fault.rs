@@ -73,7 +73,7 @@ pub enum MotionFault {
     },
     /// The matched spectrum does not come near enough.
     #[error(
-        "the wave reaches the spectrum only to {misfit:.1} % (worst at {period:.3} s); ask for a longer duration, a smaller step, a narrower range of periods, or a peak acceleration nearer to that of the spectrum"
+        "the wave reaches the spectrum only to {misfit:.2} % (worst at {period:.3} s); ask for a longer duration, a smaller step, a narrower range of periods, or a peak acceleration nearer to that of the spectrum"
     )]
     NoMatch {
         /// Largest relative difference \[%\].

@@ -55,7 +55,7 @@ const PHRASES: [(&str, &str); 9] = [
     ("jostle run --force runs", "force=True runs"),
     ("add --force to", "pass force=True to"),
     ("--force", "force=True"),
-    ("--accept-unusual", "accept_unusual=True"),
+    ("--accept-unusual", "analysis={\"accept_unusual\": True}"),
     ("or --record", "or change the motion"),
     ("chosen with --record", "chosen with motion="),
     ("\"jostle gap\"", "critical_gap"),

@@ -63,9 +63,13 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
             name: yielded_word(&list().filter_map(|hinge| hinge.at).collect::<Vec<_>>()),
             count: [yielded, hinges.total - braces],
             first_s,
-            note: match cracked {
-                0 => message::count_cracked(0),
-                _ => message::cracked_ductility(cracked, format::significant(ductility, 2)),
+            note: match (hinges.without_cracking, cracked) {
+                (true, 0) => String::new(),
+                (true, _) => message::ductility_of(format::significant(ductility, 2)),
+                (false, 0) => message::count_cracked(0),
+                (false, _) => {
+                    message::cracked_ductility(cracked, format::significant(ductility, 2))
+                }
             },
         });
     }

@@ -32,7 +32,7 @@ use serde::Serialize;
 
 use crate::checks_text::finding_with_remedy;
 use crate::error::RunError;
-use crate::numbers::{counted, grouped, mm, prefixed};
+use crate::numbers::{counted, grouped, prefixed};
 use crate::opened::Opened;
 use crate::style::{BOLD, LOUD, styled};
 
@@ -447,6 +447,8 @@ fn describe(
             .collect();
         let [left, right] = names(system, gap.between);
         writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
+        // A tenth of a millimetre means nothing in a gap of metres.
+        let mm = |width: f64| LENGTH.number(width, usize::from(width < 1.0));
         let widths: Vec<String> = contacts.iter().map(|contact| mm(contact.width)).collect();
         if system.is_in_space() {
             let on_columns = |contact: &&&Contact| {
@@ -455,7 +457,7 @@ fn describe(
             };
             let columns = contacts.iter().filter(on_columns).count();
             let faces = faces_among(&contacts) - columns;
-            let mut parts = vec![LENGTH.text(gap.width(), 1)];
+            let mut parts = vec![format!("{} {}", mm(gap.width()), LENGTH.name())];
             if faces > 0 || columns == 0 {
                 let points = gap.in_plan.points;
                 parts.push(format!(
@@ -519,7 +521,7 @@ fn describe(
                 .is_some_and(|top| top.height > contact.height)
             {
                 true => format!("at {}", HEIGHT.text(contact.height, 2)),
-                false => "at the top".to_owned(),
+                false => "at the highest contact".to_owned(),
             };
             let [left, right] = contact.ports.masses().map(|mass| {
                 if mass.is_finite() {
@@ -530,7 +532,7 @@ fn describe(
             });
             writeln!(
                 text,
-                "  colliding masses {place} {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
+                "  colliding masses {place}: {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
                 SPEED.text(0.5, 1),
                 contact.law.elastic_duration(contact.effective_mass(), 0.5) * 1e3
             )?;
@@ -598,10 +600,10 @@ fn parameters(link: &jostle::Link) -> String {
             let backbone = hysteresis.backbone();
             stiffness = backbone.initial();
             limits.push(match hysteresis.rule() {
-                HysteresisRule::Stop { .. } => "force on one side alone".to_owned(),
+                HysteresisRule::Stop { .. } => "compression only".to_owned(),
                 rule => {
                     let one_sided = match backbone.open_side() {
-                        Some(_) => ", on one side alone",
+                        Some(_) => ", compression only",
                         None => "",
                     };
                     let yielding = FORCE.text(backbone.yield_force(), 1);

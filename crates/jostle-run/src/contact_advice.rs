@@ -566,7 +566,7 @@ fn of_family(estimates: &[StiffnessEstimate], family: &str) -> Option<RangeAdvic
 fn moduli(options: &AdviceOptions) -> Result<Option<[f64; 2]>, RunError> {
     match (&options.modulus, &options.concrete) {
         (Some(_), Some(_)) => Err(RunError::Argument(
-            "--concrete: cannot stand beside --modulus".into(),
+            "--concrete: cannot be combined with --modulus".into(),
         )),
         (Some(text), None) => pair("--modulus", Some(text), Dimension::Modulus),
         (None, Some(text)) => {

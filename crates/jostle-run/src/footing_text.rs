@@ -25,7 +25,7 @@ pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fm
         });
         writeln!(
             text,
-            "\n{}: rises by up to {}, off the ground {:.1} % of the time; a spring bears up to {}{pressure}{settled}",
+            "\n{}: uplift up to {}, off the ground {:.1} % of the time; up to {} per spring{pressure}{settled}",
             footing_name(&part.name),
             LENGTH.text(part.deformation_max, 2),
             100.0 * share,

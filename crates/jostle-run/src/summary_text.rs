@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jostle::Building;
 use jostle::linear::sort_by;
+use jostle::model::RotationLevel;
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
@@ -143,7 +144,7 @@ fn write_all(
     if asks_for_codes {
         writeln!(
             text,
-            "No code is chosen: name yours with show under [codes], or see jostle gap."
+            "No code selected: list codes in show under [codes], or run jostle gap."
         )?;
     }
     if text.len() > before {
@@ -471,10 +472,20 @@ fn write_rotation_levels(text: &mut String, buildings: &[BuildingSummary]) -> st
         let Some(levels) = &building.rotation_levels else {
             continue;
         };
-        let counts = format!(
-            "{} beyond IO, {} beyond LS, {} beyond CP",
-            levels.beyond_io, levels.beyond_ls, levels.beyond_cp
-        );
+        let beyond = [levels.beyond_io, levels.beyond_ls, levels.beyond_cp];
+        let given = |level: &RotationLevel| {
+            let mut limits = levels.list.iter().flat_map(|member| &member.limits);
+            limits.any(|limit| limit.level == *level)
+        };
+        let counts: Vec<String> = RotationLevel::ALL
+            .into_iter()
+            .zip(beyond)
+            .filter(|(level, _)| given(level))
+            .map(|(level, count)| {
+                let verb = if count == 1 { "exceeds" } else { "exceed" };
+                format!("{count} {verb} {}", level.name())
+            })
+            .collect();
         let worst = levels.list.first().and_then(|worst_member| {
             let level = worst_member.beyond?;
             let mut limits = worst_member.limits.iter();
@@ -489,9 +500,10 @@ fn write_rotation_levels(text: &mut String, buildings: &[BuildingSummary]) -> st
         });
         writeln!(
             text,
-            "\n{}: of {} members with limits of rotation, {counts}{}",
+            "\n{}: rotation limits: of {}, {}{}",
             building.name,
-            levels.members,
+            counted(levels.members, "member"),
+            counts.join(", "),
             worst.unwrap_or_default()
         )?;
     }

@@ -319,9 +319,9 @@ pub fn page(
          also repeats a sample of its rows with the standard solvers and reports the differences.\n\n\
          ## Accuracy\n\n\
          The compared buildings are random: 1 to {MOST_STOREYS} storeys, all HAZUS types and design levels, random stiffness and strength. The gaps \
-         have a\nmedian of {:.0} mm, and the El Centro record is scaled to a median peak of {:.2} g. An error is the difference of a peak, \
-         divided by the\ngreatest peak of its kind in the building or gap. The columns *drifts* to *all* give the share of peaks whose \
-         error is within the\ntolerance.\n\n\
+         have a\nmedian of {:.0} mm, and the El Centro record is scaled to a median peak of {:.2} g. The error of a peak is its \
+         difference from the\npeak of the standard solvers, divided by the greatest peak of its kind in the building or gap. The columns \
+         *drifts* to *all* give the\nshare of peaks whose error is within the tolerance.\n\n\
          | rows | rows with contact | tolerance | precision | peaks | drifts | accelerations | forces | all | largest error |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",
         1e3 * GAP.0,

@@ -48,13 +48,18 @@ pub fn page(families: &[Family], extent: Extent) -> String {
     } else {
         ""
     };
+    let agreeing = rows - missed - known;
+    let others = match (missed, known) {
+        (0, 0) => String::new(),
+        (0, known) => format!("; the other {known} do not, for a known reason"),
+        (missed, known) => format!("; {missed} do not, and {known} do not for a known reason"),
+    };
     let mut page = format!(
         "# Validation\n\n\
-         Results of jostle {version} are compared with closed forms, independent programs and the literature. Of {rows} numbers, \
-         {} agree within their tolerance, {missed} do not, and {known} more do not for a known reason. Each page below lists the numbers \
+         Results of jostle {version} are compared with closed forms, independent programs and the literature. {agreeing} of {rows} \
+         numbers agree within their tolerance{others}. Each page below lists the numbers \
          of one family with their sources, errors and tolerances.\n\n\
          ## Families\n\n| family | numbers | outside the tolerance | known reason |\n|---|---:|---:|---:|\n",
-        rows - missed - known,
         version = env!("CARGO_PKG_VERSION"),
     );
     for family in families {

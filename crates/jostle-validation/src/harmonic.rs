@@ -307,7 +307,7 @@ pub fn page(study: &Study) -> String {
     });
     let _ = writeln!(
         text,
-        "| Groups of impacts repeat themselves. | {groups:.0} % of the frequencies have a group of two or more impacts that repeats within {LONGEST} cycles | {} |",
+        "| Groups of impacts repeat themselves. | of the frequencies with impacts, {groups:.0} % have a group of two or more impacts that repeats within {LONGEST} cycles | {} |",
         verdict(groups > 0.0)
     );
     let chaotic = |sweep: &[Steady]| share(sweep, |s| s.period.is_none());

@@ -104,8 +104,8 @@ const FAMILIES: [(&str, &str, Make); 27] = [
         "Buildings in space",
         "Buildings with rotating floors under two components of motion, with faces of several points: eccentric \
          storeys, five storeys beside three storeys that are offset in plan at 30°, and three buildings around a \
-         corner. The expected values are modal solutions in free vibration, and results of an integrator of eighth \
-         order during contact that locates every opening and closing. They were checked with fixed steps of 2 µs.",
+         corner. The expected values are modal solutions in free vibration, and during contact results of an \
+         integrator of eighth order that locates every opening and closing. They were checked with fixed steps of 2 µs.",
         |_| space::rows(),
     ),
     (
@@ -233,15 +233,15 @@ const FAMILIES: [(&str, &str, Make); 27] = [
     ),
     (
         "Yielding walls in plan in OpenSees",
-        "Two storeys on eccentric walls at points of the plan, each of which yields along x and y. Two sines act as \
-         ground motion, and the step is 0.5 ms. The reference is a separate OpenSees script with the same method and \
+        "Two storeys on eccentric walls at points of the plan, each of which yields along x and y. One sine acts along x, another along \
+         y, and the step is 0.5 ms. The reference is a separate OpenSees script with the same method and \
          steps; its walls are Steel01 springs at points that rigidLink ties to the floors.",
         |_| yielding_in_plan::rows(),
     ),
     (
         "A yielding space frame in OpenSees",
         "Two storeys on four columns, one of which is stronger, with an eccentric mass, and hinges about both axes at \
-         all ends of columns and at the ends of beams. Two sines act as ground motion, and the step is 1 ms. The \
+         all ends of columns and at the ends of beams. One sine acts along x, another along y, and the step is 1 ms. The \
          reference is a separate OpenSees script with the same method and steps; it has Steel01 hinges between joints \
          and elasticBeamColumn members, and rigidDiaphragm floors.",
         |_| yielding_in_plan::space_frame_rows(),

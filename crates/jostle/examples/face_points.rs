@@ -362,7 +362,7 @@ fn figure_by_turn(rows: &[(f64, [f64; 4])]) -> String {
     );
     chart(
         [(0.0, 10.0, &x), (-0.05, 1.08, &y)],
-        ["turn of the face [mrad]", SPIN],
+        ["initial angle of the face [mrad]", SPIN],
         &lines,
     )
 }

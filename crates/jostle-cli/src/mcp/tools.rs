@@ -42,7 +42,7 @@ pub(super) const TOOLS: [Tool; 6] = [
     },
     Tool {
         name: "gap",
-        description: "Finds the gap needed under every record of a model, beside the rules and codes for separation, and what happens with the gap of each rule.",
+        description: "Finds the gap needed under every record of a model, with that of rules and codes for separation, and what happens with the gap of each rule.",
         arguments: gap_schema,
         call: gap,
     },

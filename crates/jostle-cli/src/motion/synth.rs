@@ -94,7 +94,7 @@ const MEASURES: [InUnit; 5] = [
     ("peak velocity", "m/s", 4, |m| m.pgv.value),
     ("peak displacement", "m", 4, |m| m.pgd.value),
     ("Arias intensity", "m/s", 4, |m| m.arias),
-    ("significant duration", "s", 2, |m| m.d5_95[1] - m.d5_95[0]),
+    ("duration 5–95 %", "s", 2, |m| m.d5_95[1] - m.d5_95[0]),
 ];
 
 fn noise(args: &SynthNoiseArgs) -> Result<(), Failure> {

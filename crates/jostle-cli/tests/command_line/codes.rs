@@ -287,7 +287,7 @@ fn every_page_shows_the_same_rules() {
         }
         if codes.is_empty() {
             // Nobody chose a code: none is singled out.
-            assert!(screen.contains("No code is chosen"), "{name}: {screen}");
+            assert!(screen.contains("No code selected"), "{name}: {screen}");
             for (title, _) in &rules {
                 assert!(!screen.contains(title), "{name}: {title} in\n{screen}");
             }

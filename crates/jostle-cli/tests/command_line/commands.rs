@@ -22,7 +22,7 @@ fn run_without_a_model_runs_the_example_and_writes_everything() {
         "J1",
         "J2",
         "1 impact",
-        "No code is chosen",
+        "No code selected",
         "jostle-out/paper/report.html",
     ] {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
@@ -506,7 +506,7 @@ fn walls_widths_and_links_are_described_and_computed() {
         "gap 20.0, 10.0 mm, 2 contacts at 3.00, 6.00 m",
         "wall ↔ A",
         "gap 15.0 mm, 1 contact at 6.00 m",
-        "colliding masses at the top a rigid wall and 90.0 t",
+        "colliding masses at the highest contact: a rigid wall and 90.0 t",
         "A ↔ B",
         "1 link at 6.00 m with 2 MN/m and 600 kN·s/m",
     ] {

@@ -48,7 +48,7 @@ fn two_workbooks_become_a_pair_that_runs() {
         .collect();
     assert_eq!(differences.len(), 12, "{text}");
     assert!(differences.iter().all(|own| own.abs() <= 0.05), "{text}");
-    for words in ["Read", "To know", "jostle check pair.toml"] {
+    for words in ["Read", "Assumptions", "jostle check pair.toml"] {
         assert!(text.contains(words), "{text}");
     }
     for command in [

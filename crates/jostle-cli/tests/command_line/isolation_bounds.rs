@@ -67,19 +67,19 @@ fn check_says_whether_columns_shorten_and_why() {
             12,
             square,
             "",
-            "columns shorten under axial force (default above 3 times as high as wide or 10 storeys); 3.0 times as high as wide",
+            "columns axially flexible (default above 3 times as high as wide or 10 storeys); 3.0 times as high as wide",
         ),
         (
             12,
             square,
             "axial = \"rigid\"",
-            "columns axially rigid, as stated; 3.0 times as high as wide",
+            "columns axially rigid, as given; 3.0 times as high as wide",
         ),
         (
             4,
             square,
             "axial = \"flexible\"",
-            "columns shorten under axial force, as stated; 1.0 times as high as wide",
+            "columns axially flexible, as given; 1.0 times as high as wide",
         ),
         (
             12,

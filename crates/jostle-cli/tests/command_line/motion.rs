@@ -613,7 +613,7 @@ fn matching_says_what_it_changes_and_warns_of_long_periods() {
             ("peak velocity", "pgv_m_s", 1e-4),
             ("peak displacement", "pgd_m", 1e-4),
             ("Arias intensity", "arias_m_s", 1e-4),
-            ("significant duration", "d5_95_s", 1e-2),
+            ("duration 5–95 %", "d5_95_s", 1e-2),
         ] {
             let found = row(name);
             let [one, two] = [&before, &after].map(|shown| shown[key].as_f64().expect("a number"));

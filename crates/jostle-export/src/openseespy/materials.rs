@@ -95,7 +95,7 @@ impl Materials {
                 Ok(self.hysteretic(backbone, [1.0, 1.0, 0.0, 0.0, 0.0]))
             }
             HysteresisRule::Pinched(_) if backbone.open_side().is_some() => {
-                Err("pinched on one side alone")
+                Err("pinched in compression only")
             }
             HysteresisRule::Pinched(pinching) => {
                 // OpenSees relates dissipated energy to the area of the whole backbone.

@@ -108,11 +108,11 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
             )
         });
-        if let (Some(isolator), jostle::Structure::Tiers(_)) = (several, &building.structure) {
+        if let Some(isolator) = several {
             refuse(
                 format!("building[{index}].isolation.kind"),
                 format!(
-                    "\"{}\" in plan is not exported yet; take \"friction-pendulum\" with one surface to compare",
+                    "\"{}\" is not exported yet; take \"friction-pendulum\" with one surface to compare",
                     isolator.name()
                 ),
             );

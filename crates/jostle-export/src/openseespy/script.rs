@@ -126,7 +126,9 @@ impl<'a> Script<'a> {
             if let Err(rule) = script.add_building(index, building) {
                 faults.push(ModelFault {
                     path: format!("building[{index}]"),
-                    problem: format!("OpenSees has no rule \"{rule}\""),
+                    problem: format!(
+                        "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
+                    ),
                 });
             }
         }

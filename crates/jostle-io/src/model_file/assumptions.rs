@@ -1,7 +1,7 @@
 //! What a valid model assumes that few drawings say: gross sections, beams without mass between their ends, bars that nothing is
 //! compared with.
 
-use jostle::hysteresis::{Hysteresis, Side};
+use jostle::hysteresis::Hysteresis;
 use jostle::{Frame, Hinges, Model, Structure};
 
 use super::{CapacityRequest, Input};
@@ -73,16 +73,22 @@ fn gross_sections(building: &Table, hinges: Option<&Hinges>) -> Option<String> {
     if modulus.is_some_and(|node| number(node, Dimension::Modulus) > Some(STIFFEST_CONCRETE)) {
         return None;
     }
-    let (columns, beams) = match hinges {
-        Some(Hinges::Frame(hinges)) => (&hinges.columns[..], &hinges.beams[..]),
-        Some(Hinges::Storeys(_)) | None => (&[][..], &[][..]),
+    let (columns, beams, fibres) = match hinges {
+        Some(Hinges::Frame(hinges)) => (
+            &hinges.columns[..],
+            &hinges.beams[..],
+            hinges.fibres.values().any(|column| !column.is_surface()),
+        ),
+        Some(Hinges::Storeys(_)) | None => (&[][..], &[][..], false),
     };
     let gross = |key: &str, hinges: &[Vec<Hysteresis>]| {
         building.get(key).is_some_and(has_size)
             && factor(building.get("stiffness_factor"), key) >= 1.0
-            && !hinges.iter().flatten().any(cracks)
+            && !hinges.iter().flatten().any(Hysteresis::cracks)
     };
-    let (members, remedy) = match [gross("column", columns), gross("beam", beams)] {
+    // Fibres of concrete crack.
+    let columns_are_gross = !fibres && gross("column", columns);
+    let (members, remedy) = match [columns_are_gross, gross("beam", beams)] {
         [true, true] => ("columns and beams", "{ column = 0.7, beam = 0.35 }"),
         [true, false] => ("columns", "{ column = 0.7 }"),
         [false, true] => ("beams", "{ beam = 0.35 }"),
@@ -146,12 +152,4 @@ pub(super) fn number(node: &Node, dimension: Dimension) -> Option<f64> {
         Value::Number(value) => Some(*value),
         _ => None,
     }
-}
-
-/// Whether a hinge loses stiffness before it yields.
-fn cracks(hinge: &Hysteresis) -> bool {
-    Side::BOTH.into_iter().any(|side| {
-        let side = hinge.backbone().side(side);
-        side.cracking.force < side.yielding.force
-    })
 }

@@ -269,7 +269,7 @@ fn read_building(
             *reader.bad(&arrival, format!("must not be negative, found {value} s")) =
                 Some("let the first building have 0, and delay the others".into());
         } else if ground.position.is_some() {
-            *reader.bad(&arrival, "cannot stand beside position") = Some(
+            *reader.bad(&arrival, "cannot be combined with position") = Some(
                 "keep position, from which arrival follows by apparent_velocity, or arrival".into(),
             );
         }
@@ -337,7 +337,7 @@ fn check_positions(
             *reader.fault(
                 &view.span.clone(),
                 path,
-                "has a record of its own beside coherency",
+                "has a record of its own, which cannot be combined with coherency",
             ) = Some("leave out coherency, or this record".into());
         }
     }

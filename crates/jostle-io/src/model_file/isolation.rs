@@ -33,7 +33,7 @@ pub(super) fn read(
     if building.has("base")
         && let Some(base) = reader.get(building, "base")
     {
-        *reader.bad(&base, "cannot stand beside isolation") =
+        *reader.bad(&base, "cannot be combined with isolation") =
             Some("the bearings are the base; leave out base".into());
     }
     let view = reader.open(&field, &[Section::Isolation])?;

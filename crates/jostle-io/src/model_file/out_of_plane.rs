@@ -85,7 +85,8 @@ fn strength(
         }
         (None, Some(stated)) => {
             if let Some(field) = compression {
-                *reader.bad(&field, "has no meaning beside strength") = Some("leave it out".into());
+                *reader.bad(&field, "has no meaning together with strength") =
+                    Some("leave it out".into());
             }
             reader
                 .positive(&stated, Dimension::Stress)
@@ -143,7 +144,7 @@ impl OutOfPlane {
             Strength::Arching(rule, compression) => {
                 let Some(strength) = rule.strength(compression, height, self.thickness) else {
                     let slender = height / self.thickness;
-                    *reader.bad(entry, format!("has panels {slender:.1} times as high as thick, and none beyond {} is taken to arch", Arching::MOST_SLENDER)) = Some(
+                    *reader.bad(entry, format!("has panels {slender:.1} times as high as thick, and arching is not assumed above h/t = {}", Arching::MOST_SLENDER)) = Some(
                         "give out_of_plane its strength instead of rule, or the clear height of the panel".into(),
                     );
                     return None;

@@ -168,7 +168,7 @@ fn read_section(
             steel_profile::read(reader, &view, &field, material)
         }
         (_, _, Some(field)) => {
-            *reader.bad(&field, "stands beside a size or rigidities") =
+            *reader.bad(&field, "is given together with a size or rigidities") =
                 Some("keep either profile, or width and depth, or EI, EA and GA".into());
             None
         }

@@ -22,7 +22,7 @@ pub(super) fn read_foundation(reader: &mut Reader<'_>, building: &View<'_>) -> O
         ),
     ] {
         if let Some(other) = reader.get(building, key) {
-            *reader.bad(&other, "cannot stand beside foundation") = Some(remedy.into());
+            *reader.bad(&other, "cannot be combined with foundation") = Some(remedy.into());
         }
     }
     let view = reader.open(&field, &[Section::Foundation])?;

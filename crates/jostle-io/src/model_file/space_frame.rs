@@ -707,7 +707,7 @@ fn read_profile(
         false => &["width", "depth", "concrete", "bars", "slab"],
     };
     if let Some(key) = beside.iter().find(|key| view.has(key)) {
-        *reader.bad(field, format!("stands beside {key}")) =
+        *reader.bad(field, format!("is given together with {key}")) =
             Some(format!("keep either profile or {key}"));
         return None;
     }

@@ -214,7 +214,8 @@ fn moments<'n>(
     }
     for key in ["positive", "negative"] {
         if let Some(side) = reader.get(&view, key) {
-            *reader.bad(&side, "stands beside x or y") = Some(format!("move {key} into x and y"));
+            *reader.bad(&side, "is given together with x or y") =
+                Some(format!("move {key} into x and y"));
             return None;
         }
     }

@@ -181,7 +181,7 @@ fn mistakes_name_their_place_and_the_remedy() {
             "position = 0",
             "position = 5\nmotion = { arrival = 1 }",
             "",
-            "cannot stand beside position",
+            "cannot be combined with position",
         ),
         (&passing, "position = 0", "", "", "position"),
         (
@@ -231,7 +231,7 @@ fn mistakes_name_their_place_and_the_remedy() {
             "position = 0",
             "position = 5\nmotion = { record = \"el-centro-1940-ns\" }",
             "",
-            "beside coherency",
+            "cannot be combined with coherency",
         ),
         (
             EL_CENTRO,

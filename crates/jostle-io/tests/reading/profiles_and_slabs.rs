@@ -115,7 +115,7 @@ fn mistakes_are_explained() {
         ),
         (
             column("profile = \"HEB300\", width = 0.3"),
-            "stands beside a size or rigidities",
+            "is given together with a size or rigidities",
         ),
         (
             column("profile = { depth = 0.3, width = 0.3, web = 0.01 }"),

@@ -118,13 +118,13 @@ fn faults_name_field_and_remedy() {
             "mass = \"120 t\" }",
             "mass = \"120 t\" }\nbase = { horizontal_stiffness = 1e9 }",
             "building[0].base",
-            "beside foundation",
+            "combined with foundation",
         ),
         (
             "mass = \"120 t\" }",
             "mass = \"120 t\" }\nisolation = { kind = \"linear\", mat_mass = 1e5, stiffness = 1e7 }",
             "building[0].isolation",
-            "beside foundation",
+            "combined with foundation",
         ),
         (
             "mass = \"120 t\" }",

@@ -143,7 +143,7 @@ messages! {
     greatest_impact_speed = "greatest impact speed";
     wall = "wall";
     hertz_k_4_3_h(modulus) = "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres that have the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of {modulus}. The peak force of free masses grows with k^0.4, under linear laws with k^0.5:";
-    repeats_the_run_with_half = "repeats the run with both ends of the advised stiffness and restitution ± 0.15.";
+    repeats_the_run_with_half = "repeats the run with both ends of the recommended range of stiffness and restitution ± 0.15.";
     adds_the_axial_stiffness = "adds estimates from the axial stiffness and from waves for slabs of given size.";
 
     // describe
@@ -573,6 +573,7 @@ messages! {
     one_of_all(one, all) = "{one} of {all}";
     count_cracked(cracked) = "{cracked} cracked";
     cracked_ductility(cracked, ductility) = "{cracked} cracked; ductility {ductility}";
+    ductility_of(ductility) = "ductility {ductility}";
     accuracy = "Accuracy:";
     assumptions_and_limits = "Assumptions and limits of this result";
     outside_the_model = "Outside the model: no basis for design.";
@@ -1347,7 +1348,7 @@ messages! {
     median_head = "median";
     limits_of_median_head = "limits of the median";
     limits_of_beta_head = "limits of β";
-    few_records_of_fragility(records) = " Distinct records: {records}, too few for other records; use seven or more.";
+    few_records_of_fragility(records) = " Distinct records: {records}, too few to represent other earthquakes; use seven or more.";
     fragility_of(event) = "Fragility: {event}";
     pounding_event = "pounding";
     fragility_in_words(event, intensity, medians, few) = "Fragility of {event}, median {intensity} (β: standard deviation of its logarithm): {medians}.{few}";

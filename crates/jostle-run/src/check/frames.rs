@@ -15,7 +15,7 @@ use jostle_io::shown::{
 pub(super) fn axial_of_columns(frame: &Frame, known: Option<[bool; 2]>) -> String {
     let (height, width): (f64, f64) = (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
     let what = match frame.axial.columns_flexible {
-        true => "columns shorten under axial force",
+        true => "columns axially flexible",
         false => "columns axially rigid",
     };
     let limit = |word: &str| {
@@ -23,7 +23,7 @@ pub(super) fn axial_of_columns(frame: &Frame, known: Option<[bool; 2]>) -> Strin
         format!("{slender} times as high as wide {word} {tall} storeys")
     };
     let why = match (known, frame.axial.columns_flexible, frame.tallness() > 1.0) {
-        (Some([true, _]), ..) => ", as stated".to_owned(),
+        (Some([true, _]), ..) => ", as given".to_owned(),
         (Some([false, _]), true, _) if !frame.walls.is_empty() => {
             ", the default of frames with walls".to_owned()
         }

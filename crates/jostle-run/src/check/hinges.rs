@@ -9,7 +9,6 @@ use jostle::{ColumnFibres, ShearSpring, SpaceFrame, SpaceMember, SpacePlace};
 use jostle_io::shown::{FORCE, HEIGHT, MOMENT, Shown};
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
-    let (force, moment) = (FORCE.name(), MOMENT.name());
     match hinges {
         Hinges::Frame(hinges) => {
             if let Some(([storey, line], first)) = hinges.fibres.first_key_value() {
@@ -29,13 +28,8 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
                     }
                     let sign = if differ { sign } else { "" };
                     let rule = springs[0].rule().name();
-                    let [cracking, yielding] = extents(&springs, side);
-                    writeln!(
-                        text,
-                        "  hinges {rule}, {name}{sign}: crack at {} {moment}, yield at {} {moment}",
-                        range(cracking, MOMENT),
-                        range(yielding, MOMENT)
-                    )?;
+                    let forces = crack_and_yield(extents(&springs, side), MOMENT);
+                    writeln!(text, "  hinges {rule}, {name}{sign}: {forces}")?;
                 }
             }
             let shear = hinges.shear.iter().flatten();
@@ -44,14 +38,8 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
         Hinges::Storeys(springs) => {
             let springs: Vec<&Hysteresis> = springs.iter().collect();
             if let Some(first) = springs.first() {
-                let [cracking, yielding] = extents(&springs, Side::Positive);
-                writeln!(
-                    text,
-                    "  storeys {}: crack at {} {force}, yield at {} {force}",
-                    first.rule().name(),
-                    range(cracking, FORCE),
-                    range(yielding, FORCE)
-                )?;
+                let forces = crack_and_yield(extents(&springs, Side::Positive), FORCE);
+                writeln!(text, "  storeys {}: {forces}", first.rule().name())?;
             }
         }
     }
@@ -160,7 +148,6 @@ pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std
                 .iter()
                 .map(|yielding| &yielding.hysteresis)
                 .collect();
-            let [cracking, yielding] = extents(&springs, Side::Positive);
             let what = match element {
                 None => "storeys".to_owned(),
                 Some(index) => {
@@ -170,17 +157,12 @@ pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std
                     format!("{name} at ({x}, {y}) {}", HEIGHT.name())
                 }
             };
-            let cracks = match cracking == yielding {
-                true => String::new(),
-                false => format!("crack at {} {}, ", range(cracking, FORCE), FORCE.name()),
-            };
             writeln!(
                 text,
-                "  {what}, {} by {}: {cracks}yield at {} {}",
+                "  {what}, {} by {}: {}",
                 axis.name(),
                 first.hysteresis.rule().name(),
-                range(yielding, FORCE),
-                FORCE.name()
+                crack_and_yield(extents(&springs, Side::Positive), FORCE)
             )?;
         }
     }
@@ -202,7 +184,6 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         ("columns, y,", true, 1),
         ("beams", false, 0),
     ];
-    let moment = MOMENT.name();
     for (what, columns, plane) in sorts {
         let members = frame.members.iter();
         let members = members.filter(|member| is_column(member) == columns);
@@ -215,17 +196,12 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         let mut rules: Vec<&str> = springs.iter().map(|spring| spring.rule().name()).collect();
         rules.sort_unstable();
         rules.dedup();
-        let [cracking, yielding] = extents(&springs, Side::Positive);
-        let cracks = match cracking == yielding {
-            true => String::new(),
-            false => format!("crack at {} {moment}, ", range(cracking, MOMENT)),
-        };
         writeln!(
             text,
-            "  {} of {what} {}: {cracks}yield at {} {moment}",
+            "  {} of {what} {}: {}",
             counted(2 * springs.len(), "hinge"),
             rules.join(" and "),
-            range(yielding, MOMENT)
+            crack_and_yield(extents(&springs, Side::Positive), MOMENT)
         )?;
     }
     for axis in PlanAxis::BOTH {
@@ -248,6 +224,16 @@ fn extents(springs: &[&Hysteresis], side: Side) -> [[f64; 2]; 2] {
                 [extents[1][0].min(y), extents[1][1].max(y)],
             ]
         })
+}
+
+/// Where springs crack and yield, or yield only.
+fn crack_and_yield([cracking, yielding]: [[f64; 2]; 2], shown: Shown) -> String {
+    let unit = shown.name();
+    let cracks = match cracking == yielding {
+        true => String::new(),
+        false => format!("crack at {} {unit}, ", range(cracking, shown)),
+    };
+    format!("{cracks}yield at {} {unit}", range(yielding, shown))
 }
 
 /// A range, or one number where its ends look the same.

@@ -124,7 +124,7 @@ impl Comparison {
             {
                 let _ = write!(
                     text,
-                    ", computed {:+.2} ms later in the mean, {:.2} ms apart at most",
+                    ", computed {:+.2} ms later on average, {:.2} ms apart at most",
                     1e3 * mean,
                     1e3 * most
                 );

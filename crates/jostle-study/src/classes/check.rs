@@ -80,8 +80,12 @@ fn again(
     };
     let row = pair.row(file, draw);
     let options = Options::for_tolerance(file.tolerance);
-    let found = both_ways(&row, &motions.all[case.motion], &options, stop)
-        .map_err(|problem| format!("{}, run again in full: {problem}", pair.name()))?;
+    let found = both_ways(&row, &motions.all[case.motion], &options, stop).map_err(|problem| {
+        format!(
+            "{}, repeated with the standard solvers: {problem}",
+            pair.name()
+        )
+    })?;
     let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     Ok(found.map(|found| {
         let own_place = pair.own_place();

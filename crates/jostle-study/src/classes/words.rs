@@ -22,7 +22,7 @@ impl ClassesResults {
             let [drift, force] = self.worst_deviations();
             let _ = writeln!(
                 text,
-                "{} cases run again in full: drift within {drift:.2e}, force within {force:.2e}",
+                "{} cases repeated with the standard solvers: drift within {drift:.2e}, force within {force:.2e}",
                 self.checked.len(),
             );
         }

@@ -155,10 +155,10 @@ impl SizeResults {
                     .map(|((name, _), (_, text))| format!("{} {}", in_words(name), rounded(text)))
                     .collect();
                 // A search that did not end by itself has a best trial, not a least value.
-                let least = if self.converged {
-                    "Smallest"
+                let (least, so_far) = if self.converged {
+                    ("Smallest", "")
                 } else {
-                    "Not converged; smallest so far of"
+                    ("Not converged; smallest", " so far")
                 };
                 // An objective that is the only input has said where it lies.
                 let is_input = self.inputs.len() == 1 && self.inputs[0].0 == self.objective.text;
@@ -168,7 +168,7 @@ impl SizeResults {
                     format!(", at {}", inputs.join(", "))
                 };
                 sentences.push(format!(
-                    "{least} {}{keeping}: {}{at}.",
+                    "{least} {}{keeping}{so_far}: {}{at}.",
                     in_words(&self.objective.text),
                     rounded_up(objective, &self.objective.suffix),
                 ));
@@ -189,7 +189,7 @@ impl SizeResults {
             format!("Stopped after {} trials.", self.trials.len())
         } else {
             let lower = match self.best() {
-                Some(_) => " The smallest may lie lower; raise --trials.",
+                Some(_) => " The true minimum may be lower; raise --trials.",
                 None => "",
             };
             format!(

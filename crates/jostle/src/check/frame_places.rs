@@ -149,7 +149,7 @@ pub(super) fn fault_of_diagonal(frame: &Frame, place: DiagonalPlace) -> Option<S
     let [low, high] = place.floors();
     if lower == upper && !frame.axial.columns_flexible {
         return Some(format!(
-            "{place} stands beside columns that keep their length, so that it bears nothing; add axial = \"flexible\" to the building, or leave it out"
+            "{place} is next to axially rigid columns, so it carries no force; add axial = \"flexible\" to the building, or leave it out"
         ));
     }
     let mut loose = [(low, lower), (high, upper)].into_iter();

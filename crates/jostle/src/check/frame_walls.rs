@@ -98,7 +98,7 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
         if let Some(wall) = walls.next() {
             let kind = diagonal.place.kind.name();
             faults.add(format!("{path}.{kind}"), format!(
-                "{} meets the wall at line {}, beside which braces and panels are not modelled; leave it out there",
+                "{} meets the wall at line {}: a bay next to a wall cannot contain braces or panels; leave it out there",
                 diagonal.place, wall.line
             ));
         }

@@ -22,7 +22,7 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
         ..Base::default()
     };
     faults.require(building.base == plain, text.as_str(), || {
-        "cannot stand beside base: the bearings are the base; leave out base".into()
+        "cannot be combined with base: the bearings are the base; leave out base".into()
     });
     match &building.structure {
         Structure::Frame(_) | Structure::Shear(_) => {}
@@ -72,7 +72,10 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
         faults.require(
             frame.base.is_fixed(),
             format!("{path}.{frame_path}.base"),
-            || "cannot stand beside isolation: columns are fixed to the mat; leave out base".into(),
+            || {
+                "cannot be combined with isolation: columns are fixed to the mat; leave out base"
+                    .into()
+            },
         );
     }
     let [left, right] = isolation.stops;

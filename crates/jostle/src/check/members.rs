@@ -14,7 +14,7 @@ pub(super) fn check_members(faults: &mut Faults, model: &Model) {
     faults.require(
         !request.envelopes || model.buildings.iter().any(has_frame),
         "output.members",
-        || "no building is a frame, so that there are no columns and beams: storey shears are in every summary".into(),
+        || "no building is a frame, so there are no member forces; storey shears are always reported".into(),
     );
     for (index, name) in request.histories.iter().enumerate() {
         if let Some(problem) = fault_of(name, model) {

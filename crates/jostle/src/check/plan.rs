@@ -179,7 +179,7 @@ fn check_plan_base(faults: &mut Faults, path: &str, tiers: &Tiers, base: &Base) 
     faults.require(
         base.isolation.is_none() || base.torsional_stiffness.is_none() && base.across.is_none(),
         path,
-        || "stands beside isolation; keep one of them".into(),
+        || "cannot be combined with isolation; keep one of them".into(),
     );
     let [along, across] = base.in_plan();
     let pairs = [

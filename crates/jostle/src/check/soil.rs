@@ -21,7 +21,8 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
         ..Base::default()
     };
     faults.require(building.base == plain, text.as_str(), || {
-        "cannot stand beside base or isolation: the soil is the base; leave out one of them".into()
+        "cannot be combined with base or isolation: the soil is the base; leave out one of them"
+            .into()
     });
     let (has_floors, has_plan) = match &building.structure {
         Structure::Frame(_) | Structure::Shear(_) => (true, false),
@@ -55,7 +56,7 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     if let Structure::Frame(frame) = &building.structure {
         let rises = foundation.uplift.is_some();
         faults.require(rises || !frame.axial.columns_flexible, text.as_str(), || {
-            "is for columns that keep their length: leave out columns = \"flexible\", or write uplift = true".into()
+            "requires axially rigid columns: leave out columns = \"flexible\", or write uplift = true".into()
         });
     }
     faults.require(

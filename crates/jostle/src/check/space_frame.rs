@@ -166,7 +166,7 @@ fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) ->
     };
     if lower == upper && (low..high).all(keeps_length) {
         return Some(format!(
-            "{place} stands beside columns that keep their length, so that it bears nothing; take axial = \"flexible\", or leave it out"
+            "{place} is next to axially rigid columns, so it carries no force; take axial = \"flexible\", or leave it out"
         ));
     }
     let mut loose = [(low, lower), (high, upper)].into_iter();

@@ -442,6 +442,15 @@ impl Hysteresis {
         &self.backbone
     }
 
+    /// Whether it loses stiffness before it yields.
+    #[must_use]
+    pub fn cracks(&self) -> bool {
+        Side::BOTH.into_iter().any(|side| {
+            let side = self.backbone.side(side);
+            side.cracking.force < side.yielding.force
+        })
+    }
+
     /// The same spring seen from its other end: sides exchanged.
     #[must_use]
     pub fn mirrored(&self) -> Self {

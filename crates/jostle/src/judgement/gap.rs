@@ -49,7 +49,7 @@ pub(super) fn tolerance(known: &Known<'_>, tally: &mut Tally<'_>) {
                 false => String::new(),
             };
             let text = format!(
-                "{place}: the gap of {:.0} mm is smaller than tolerance ({:.0} mm){thermal}",
+                "{place}: the gap of {:.0} mm is smaller than the construction tolerance ({:.0} mm){thermal}",
                 1e3 * width,
                 1e3 * PLUMB
             );

@@ -248,7 +248,7 @@ pub const CHECKS: &[Check] = &[
     Check {
         id: "A16",
         name: "soil-twice",
-        quantity: "embedment of a foundation minus the height above it at which the soil represented by a link between a wall and a floor begins: the middle of the storey below that floor",
+        quantity: "embedment of a foundation minus the height above it at which soil represented by links begins: overlap of embedment and these links, which start at the middle of the storey below their floor",
         unit: "m",
         limits: &[above(0.0, Warning)],
         sources: &[JUDGEMENT],
@@ -302,7 +302,7 @@ pub const CHECKS: &[Check] = &[
     Check {
         id: "B3",
         name: "rotation",
-        quantity: "ratio of member rotation to the last of its limits",
+        quantity: "ratio of member rotation to its highest limit",
         unit: "–",
         limits: &[above(1.0, Warning)],
         sources: &[FROM_MODEL],

@@ -1,7 +1,7 @@
 //! A9, A10, B3, B4 and B5: what yields, and what would.
 
 use super::{Known, Tally, quoted};
-use crate::hysteresis::{Hysteresis, Side};
+use crate::hysteresis::Hysteresis;
 use crate::interface::PlanPart;
 use crate::linear::sort_by;
 use crate::model::{
@@ -56,7 +56,7 @@ pub(super) fn cracking_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         let members = [("columns", &hinges.columns), ("beams", &hinges.beams)];
         for ((name, rows), factor) in members.into_iter().zip(stated.stiffness_factor) {
-            if !rows.iter().flatten().any(cracks) {
+            if !rows.iter().flatten().any(Hysteresis::cracks) {
                 continue;
             }
             tally.add(factor, || {
@@ -68,14 +68,6 @@ pub(super) fn cracking_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
             });
         }
     }
-}
-
-/// Whether a hinge loses stiffness before it yields.
-fn cracks(hinge: &Hysteresis) -> bool {
-    Side::BOTH.into_iter().any(|side| {
-        let side = hinge.backbone().side(side);
-        side.cracking.force < side.yielding.force
-    })
 }
 
 /// Greatest ductility of the hinges or storeys of a building.

@@ -137,7 +137,7 @@ pub fn foundation_warnings(system: &System) -> Vec<String> {
         for ((value, most), what) in found.into_iter().zip(MEANT_FOR).zip(what) {
             if value > most {
                 warnings.push(format!(
-                    "the foundation of \"{name}\" is outside the range of the formulas for its springs and dashpots: {what} is {value:.1}, and they are meant for at most {most}"
+                    "the foundation of \"{name}\" is outside the range of the formulas for its springs and dashpots: {what} is {value:.1}; the formulas hold up to {most}"
                 ));
             }
         }

@@ -192,7 +192,8 @@ fn of_wall(
         (None, None) => [0.0; 2],
     };
     let fibres = wall.sections.iter();
-    let of_fibres: f64 = fibres.map(|section| sections[*section].dissipated_j).sum();
+    // The sum of nothing is −0.0.
+    let of_fibres = fibres.fold(0.0, |sum, section| sum + sections[*section].dissipated_j);
     PartSummary {
         name: name_of(building, wall.frame, &format!("wall.{}", wall.number)),
         kind: "wall",

@@ -240,10 +240,14 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
     let mut summary = HingeSummary {
         total: all.len(),
         cracked: all.iter().filter(|s| s.cracked_s.is_some()).count(),
+        without_cracking: !all.iter().any(|s| {
+            let spring = &building.equations.springs[s.index];
+            spring.hysteresis.cracks()
+        }),
         yielded: all.iter().filter(|s| s.yielded_s.is_some()).count(),
         first_yield_s: None,
         ductility: all.iter().map(|s| s.ductility).fold(0.0, f64::max),
-        dissipated_j: all.iter().map(|s| s.dissipated_j).sum(),
+        dissipated_j: all.iter().fold(0.0, |sum, s| sum + s.dissipated_j),
         list: all.into_iter().filter(|s| s.cracked_s.is_some()).collect(),
     };
     let never = f64::INFINITY;

@@ -491,7 +491,7 @@ fn refused_vertical(system: &System, analysis: &Analysis) -> Option<ModelFault> 
     if !buildings.any(BuildingSystem::moves_vertically) {
         return Some(ModelFault {
             path: "motion.vertical".into(),
-            problem: "no mass moves vertically: shear buildings have none, nor have frames with rigid columns and no masses along beams; take frames with axial = { columns = \"flexible\" } or beam_segments, or leave vertical out".into(),
+            problem: "no mass moves vertically: neither shear buildings nor frames with rigid columns have such masses; use frames with axial = { columns = \"flexible\" } or beam_segments, or leave vertical out".into(),
         });
     }
     let mut buildings = system.buildings.iter();
@@ -544,7 +544,7 @@ fn check_solver(
         if system.is_in_space() && solver == Solver::Product {
             faults.push(ModelFault {
                 path: "analysis.solver".into(),
-                problem: "product cannot be used: no path of transfer matrices leads through buildings with a plan; leave it out, or take solver = \"riccati\"".into(),
+                problem: "product cannot be used: transfer matrices do not apply to buildings with a plan; leave it out, or take solver = \"riccati\"".into(),
             });
         }
         faults.extend(damped.map(|index| ModelFault {

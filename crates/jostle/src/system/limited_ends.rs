@@ -90,7 +90,7 @@ impl LimitedEnd {
                 "names no hinge of a member: its members have other lines and storeys, or yield elsewhere; name theirs, or leave it out"
             }
             (_, false) => {
-                "limits rotations of columns, walls and beams with hinges of their own, and this building has none: what yields are storeys, fibres or other parts, which have drifts, limits of strains and damage states; leave it out, or describe the building as a frame with hinges"
+                "limits rotations of columns, walls and beams with hinges of their own, and this building has none: here storeys, fibres or other parts yield; use limits of drift, strain limits or damage states; leave it out, or describe the building as a frame with hinges"
             }
         }
     }

@@ -16,7 +16,7 @@ pub struct PromiseSummary {
     /// \[s\].
     pub met_until_s: Option<f64>,
     /// Estimated error of the least accurate peak of a building, contact forces and impulses not included: from
-    /// omitted shapes and values between steps in modal stepping, of from frequency errors of the steps otherwise;
+    /// omitted shapes and values between steps in modal stepping, or from frequency errors of the steps otherwise;
     /// `null` where it is not estimated \[–\].
     pub residual: Option<f64>,
     /// Instant from which results depend on contacts made or missed within the tolerance; `null` if none do \[s\].

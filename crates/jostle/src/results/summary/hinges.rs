@@ -13,6 +13,9 @@ pub struct HingeSummary {
     pub total: usize,
     /// Cracked or beyond.
     pub cracked: usize,
+    /// Whether none of them can crack before it yields; `cracked` then counts those that yielded.
+    #[serde(skip)]
+    pub without_cracking: bool,
     /// Yielded.
     pub yielded: usize,
     /// When the first one yielded; `None` if none did \[s\].

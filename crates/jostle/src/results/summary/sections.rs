@@ -130,7 +130,7 @@ impl FibreSummary {
         Quantity::<Self>::real("elongation_max_m", Unit::M, "greatest elongation of the axis", |s| s.elongation_max_m),
         Quantity::<Self>::real("elongation_min_m", Unit::M, "greatest shortening of the axis, negative", |s| s.elongation_min_m),
         Quantity::<Self>::optional("concrete_strain", Unit::NONE, "greatest compressive strain of concrete", |s| s.concrete_strain),
-        Quantity::<Self>::optional("crushed_s", Unit::S, "time at which concrete first exceeded the strain at peak strength", |s| s.crushed_s),
+        Quantity::<Self>::optional("crushed_s", Unit::S, "time at which any concrete fibre, core or cover, first exceeded its strain at peak strength; for the core beyond its strain limit see `strains.crushed`", |s| s.crushed_s),
         Quantity::<Self>::real("crushed_share", Unit::NONE, "fraction of the concrete fibres that exceeded it", |s| s.crushed_share),
         Quantity::<Self>::optional("steel_strain", Unit::NONE, "peak tensile strain of bars", |s| s.steel_strain),
         Quantity::<Self>::optional("yielded_s", Unit::S, "time at which bars first yielded, or the surface of axial force and moment was first passed", |s| s.yielded_s),

@@ -52,7 +52,7 @@ impl StrainsSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("ends", "column ends that have strain limits", |s| s.ends),
         Quantity::<Self>::whole("spalled", "column ends whose cover spalled", |s| s.spalled).in_study(),
-        Quantity::<Self>::whole("crushed", "column ends whose confined core crushed", |s| s.crushed).in_study(),
+        Quantity::<Self>::whole("crushed", "column ends whose confined core exceeded its strain limit in compression", |s| s.crushed).in_study(),
         Quantity::<Self>::whole("buckled", "column ends where bars exceeded the strain beyond which they buckle", |s| s.buckled).in_study(),
         Quantity::<Self>::whole("fractured", "column ends where bars fractured", |s| s.fractured).in_study(),
         Quantity::<Self>::real("ratio", Unit::NONE, "greatest ratio of strain to its limit", |s| s.ratio).in_study(),

@@ -16,7 +16,7 @@ impl Table<'_> {
             Some(system) => (system, format!("system = {}", system.name())),
             None => (
                 JointSystem::Frame,
-                "system = frame (default: of concrete)".to_owned(),
+                "system = frame (default: concrete frame)".to_owned(),
             ),
         };
         let wanted = |intensity: &u32| self.inputs.intensity.is_none_or(|only| only == *intensity);

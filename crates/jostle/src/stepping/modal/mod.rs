@@ -76,7 +76,7 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
         }
         if building.support.is_some() {
             reasons.push(format!(
-                "\"{name}\" stands on bearings, or is a wall that gives way"
+                "\"{name}\" stands on bearings, or is a flexible wall"
             ));
         }
         if building.foundation.is_some() {

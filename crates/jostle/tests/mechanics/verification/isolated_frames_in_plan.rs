@@ -967,7 +967,7 @@ fn columns_on_a_mat_have_no_base_of_their_own() {
     tiers.frames[1].base.rotational_stiffness = Some(1e8);
     let found = faults(&on_bearings(tiers, BETA, Solver::Riccati, 1e-3));
     assert!(
-        found.contains("building[0].frame[1].base: cannot stand beside isolation: columns are fixed to the mat; leave out base"),
+        found.contains("building[0].frame[1].base: cannot be combined with isolation: columns are fixed to the mat; leave out base"),
         "{found}"
     );
 }
