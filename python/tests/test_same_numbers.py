@@ -82,8 +82,13 @@ def test_saved_files_are_those_of_the_command_line(
 
 
 def test_saved_files_of_a_yielding_model(program: Program, tmp_path: Path) -> None:
-    assert program("run", "paper-inelastic", "--out", "theirs").returncode == 0
-    ours = jostle.run("paper-inelastic").save(tmp_path / "ours")
+    assert program("new", "short", "--template", "paper-inelastic").returncode == 0
+    short = tmp_path / "short.toml"
+    text = short.read_text("utf-8")
+    assert "[motion]\n" in text
+    short.write_text(text.replace("[motion]\n", '[motion]\nduration = "6 s"\n'), "utf-8")
+    assert program("run", "short.toml", "--out", "theirs").returncode == 0
+    ours = jostle.run(short).save(tmp_path / "ours")
     theirs = tmp_path / "theirs"
     names = sorted(file.name for file in theirs.iterdir())
     assert names == sorted(file.name for file in ours.iterdir())
