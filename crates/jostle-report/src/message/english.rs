@@ -1235,7 +1235,7 @@ messages! {
 
     // panels
     infill_panels = "Infill panels";
-    damage_by_drift = "States 1 to 4 by the drifts that the model gives for them; state 0 is none. They follow from drift, while struts count as cracked by their own curve, so the two counts can differ. Damage state from the peak drift of the bay: shortening of its diagonal ÷ (cosine of its slope × storey height).";
+    damage_by_drift = "States 1 to 4 by the drifts that the model gives for them; state 0 is none. They follow from drift, while struts count as cracked by their own curve, so the two counts can differ. Damage state from the peak drift of the bay: shortening of its diagonal ÷ (cosine of its angle × storey height).";
     panels_of_states(name, counts, total) = "{name}: {counts} of {total} panels.";
     state_in(state, count) = "state {state} in {count}";
     no_state_in_any = "no damage state reached in any";

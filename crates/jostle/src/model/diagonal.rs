@@ -38,7 +38,7 @@ pub struct Diagonal {
     pub damage: Option<PanelDamage>,
 }
 
-/// Damage of an infill panel by the drift of its bay: how much its diagonal shortens, over the cosine of its slope and the storey height.
+/// Damage of an infill panel by the drift of its bay: how much its diagonal shortens, over the cosine of its angle and the storey height.
 ///
 /// ```
 /// // A panel 3 m high and 4 m long, whose diagonal of 5 m shortens by 16 mm: a drift of 0.67 %.

@@ -338,9 +338,9 @@ pub struct Frame {
     pub own_beams: BTreeMap<FramePlace, Option<Section>>,
     /// Mass carried by the beams of every floor, self weight included, ≥ 0 \[kg/m\].
     pub beam_mass: Vec<f64>,
-    /// Additional mass of every floor, shared equally by its joints, ≥ 0 \[kg\].
+    /// Additional mass of every floor, shared equally by the columns below, ≥ 0 \[kg\].
     pub floor_mass: Vec<f64>,
-    /// Weight that the columns of every floor carry beyond that of its masses, shared equally by its joints; negative where other
+    /// Weight that the columns of every floor carry beyond that of its masses, shared equally by the columns below; negative where other
     /// columns carry part of that. Empty for none \[N\].
     pub floor_load: Vec<f64>,
     /// Segments of a column line in one storey, ≥ 1 \[–\]; k segments have k − 1 interior masses.

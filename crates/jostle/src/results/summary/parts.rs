@@ -93,7 +93,7 @@ impl PartSummary {
         Quantity::<Self>::optional("buckled_s", Unit::S, "time at which a brace first buckled; absent if it did not", |p| p.buckled_s),
         Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "for a panel: greatest ratio of out-of-plane inertia force, from the accelerations of the floors below and above, to capacity", |p| p.out_of_plane_ratio),
         Quantity::<Self>::optional("fallen_s", Unit::S, "for a strut: time at which its panel fell out and was removed from the model", |p| p.fallen_s),
-        Quantity::<Self>::optional("drift", Unit::NONE, "for a strut of a panel: peak drift of its bay in the direction that shortens it; drift is the shortening of the diagonal ÷ (cosine of its slope × storey height)", |p| p.drift),
+        Quantity::<Self>::optional("drift", Unit::NONE, "for a strut of a panel: peak drift of its bay in the direction that shortens it; drift is the shortening of the diagonal ÷ (cosine of its angle × storey height)", |p| p.drift),
         Quantity::<Self>::optional("damage_state", Unit::NONE, "for a panel: damage state from this drift, 0 to 4", |p| p.damage_state.map(|damage_state| damage_state as f64)),
         Quantity::<Self>::optional("lifted_share", Unit::NONE, "for a footing: fraction of the run in which a contact spring carries no force, the greatest of all springs", |p| p.lifted_share),
         Quantity::<Self>::optional("pressure_max_pa", Unit::PA, "for a foundation: peak force of a contact spring ÷ area of its strip", |p| p.pressure_max_pa),
