@@ -56,6 +56,17 @@ pub(super) fn members(frame: &Frame) -> String {
             text += &format!(", {} omitted", counted(count, noun));
         }
     }
+    let joints = (1..=storeys).flat_map(|floor| (0..frame.lines()).map(move |line| [floor, line]));
+    let on_beams = joints.filter(|&[floor, line]| {
+        frame.column(floor - 1, line).is_none() && frame.beams_cross(floor, line)
+    });
+    match on_beams.count() {
+        0 => {}
+        count => {
+            let joints = counted(count, "joint");
+            text += &format!(", beams continuous over {joints} without a column below");
+        }
+    }
     let mut sections = (frame.own_columns.values()).chain(frame.own_beams.values());
     if sections.any(Option::is_some) {
         text += ", sections that differ by line or bay";
