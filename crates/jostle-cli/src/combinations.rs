@@ -481,6 +481,9 @@ fn in_plan_matrix([diagonal, between]: [f64; 2]) -> String {
     format!("[{}]", (0..6).map(row).collect::<Vec<_>>().join(", "))
 }
 
+/// How a problem begins that goes on with the name of its key.
+const GOES_ON: [&str; 5] = ["is ", "and ", "needs ", "limits ", "of "];
+
 /// The first problem of a model in one line.
 fn line_of(error: &jostle_io::InputError) -> String {
     let first = error.faults.first();
@@ -491,6 +494,13 @@ fn line_of(error: &jostle_io::InputError) -> String {
             || fault.problem.starts_with(key)
         {
             true => fault.problem.clone(),
+            false
+                if ["is ", "and "]
+                    .iter()
+                    .any(|word| fault.problem.starts_with(word)) =>
+            {
+                format!("{key} {}", fault.problem)
+            }
             false => format!("{key}: {}", fault.problem),
         }
     }))
