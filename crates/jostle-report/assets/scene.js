@@ -280,8 +280,8 @@ class Scene {
 
   /** Where the first and the last column line at a floor stand at rest [m]. */
   outer(i, floor) {
-    const { columns } = page.buildings[i];
-    const lines = this.lines(i).filter((_, line) => !columns || columns[line].includes(Math.max(floor, 1)));
+    const { standing } = page.buildings[i];
+    const lines = this.lines(i).filter((_, line) => !standing || standing[line].includes(Math.max(floor, 1)));
     return [lines[0], lines.at(-1)];
   }
 
@@ -371,7 +371,7 @@ class Scene {
     const lines = this.lines(i);
     const heights = levelsOf(building);
     // Lines of a frame may lack columns in some storeys.
-    const stands = (line, storey) => building.columns?.[line].includes(storey) ?? true;
+    const stands = (line, storey) => building.standing?.[line].includes(storey) ?? true;
     const column = (x, places, line) => {
       let path = "";
       for (let k = 1; k < heights.length; k++) {
@@ -398,7 +398,7 @@ class Scene {
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
     this.drawHinges(part, building, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
-    const edges = building.columns ? lines.map((_, line) => line) : [0, lines.length - 1];
+    const edges = building.standing ? lines.map((_, line) => line) : [0, lines.length - 1];
     const outline = (places) => edges.map((line) => column(lines[line], places, line)).join("") + floor(places);
     part.ghost.setAttribute("d", ghost ? outline(ghost) : "");
     const floors = this.pinned && page.buildings.map((b) => b.heights.length).join();

@@ -141,7 +141,7 @@ struct Outline<'a> {
     spans: Vec<f64>,
     /// Storeys with a column from 1, by column line, of a frame in one plane that lacks some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    columns: Vec<Vec<usize>>,
+    standing: Vec<Vec<usize>>,
     /// Height of the base above the datum, if it is not zero \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     elevation: Option<f64>,
@@ -524,7 +524,7 @@ fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Out
         frame,
         heights: building.floor_heights(),
         spans,
-        columns: plane
+        standing: plane
             .filter(|plane| !plane.is_regular())
             .map(Frame::storeys_of_lines)
             .unwrap_or_default(),

@@ -537,7 +537,7 @@ fn bearings_links_and_walls_have_loops_and_a_table() {
 fn fewer_bays_above_and_elevations_reach_the_pictures() {
     let mut run = two_frames(0.1);
     let plain = render(&run.page());
-    assert!(!plain.contains("\"columns\":") && !plain.contains("\"elevation\":"));
+    assert!(!plain.contains("\"standing\":") && !plain.contains("\"elevation\":"));
     let building = &mut run.model.buildings[1];
     building.base.elevation = -1.5;
     let Structure::Frame(frame) = &mut building.structure else {
@@ -555,7 +555,9 @@ fn fewer_bays_above_and_elevations_reach_the_pictures() {
             .join(",")
     };
     let [low, high] = [6, 10].map(all);
-    assert!(page.contains(&format!("\"columns\":[[{low}],[{high}],[{high}],[{high}]]")));
+    assert!(page.contains(&format!(
+        "\"standing\":[[{low}],[{high}],[{high}],[{high}]]"
+    )));
     assert!(page.contains("\"elevation\":-1.5"));
     assert!(page.contains("elevation of the base") && page.contains("7–10: –"));
 }
