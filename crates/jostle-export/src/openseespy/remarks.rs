@@ -76,8 +76,8 @@ impl Kind {
     fn remark(self) -> &'static str {
         match self {
             Self::Concrete => {
-                "Concrete of fibres is OpenSees' Concrete01, which has the same envelope and the same unloading; its parabola is \
-                 here a polygon of 32 chords, up to 2e-4 of the strength away."
+                "Concrete of fibres is OpenSees' Concrete01, which has the same envelope and the same unloading; jostle's parabola is a \
+                 polygon of 32 chords, up to 2e-4 of the strength away."
             }
             Self::MenegottoPinto => {
                 "Bars of fibres with smooth loops are OpenSees' Steel02. Where a bar turns round before it has left its first straight line, \
