@@ -7,10 +7,12 @@ use jostle_io::Input;
 use serde_json::Value;
 
 use crate::data::{at, document, list, number};
+use crate::fibre_ends;
 use crate::files::{case, model, run_model};
 use crate::row::Row;
+use crate::yielding::OF_FIBRES;
 
-const CASES: [(&str, &str, &str, f64); 9] = [
+const CASES: [(&str, &str, &str, f64); 10] = [
     case!("plan_symmetric", 1e-4),
     case!("plan_eccentric", 1e-4),
     case!("plan_elements", 1e-4),
@@ -24,6 +26,7 @@ const CASES: [(&str, &str, &str, f64); 9] = [
     // blow by 1.9e-3, so that a quarter of that is left.
     case!("plan_isolated", 5e-4),
     case!("plan_isolated_frame", 3e-4),
+    case!("plan_fibres", 3e-4),
 ];
 /// Ours, on peak forces and displacements \[–\].
 const TOLERANCE: f64 = 1e-4;
@@ -56,6 +59,8 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
     let mut rows = Vec::new();
     for (index, stored) in list(expected, "/buildings").iter().enumerate() {
         let name = &system.buildings[index].name;
+        let own = fibre_ends::rows(&source, (&system, &outcome), index, stored, OF_FIBRES);
+        rows.extend(own);
         // Of an isolated building the mat comes first.
         let mat = outcome.peaks.floor(index, 0);
         let mat = mat.across().moves().then_some(mat);

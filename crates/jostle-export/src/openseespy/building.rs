@@ -4,11 +4,15 @@ use std::fmt::Write;
 
 use jostle::ProportionalDamping;
 use jostle::hysteresis::Hysteresis;
-use jostle::structure::{Discretization, Element, Part, Spring, StickModel, Support};
+use jostle::structure::{Discretization, Element, Node, Part, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
+use super::foundation::Turning;
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
 use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
+
+/// Stiffness of what holds an end on its rigid arm, in units of the stiffest member in bending \[–\].
+const STIFF: f64 = 1e5;
 
 impl Script<'_> {
     pub(super) fn add_building(
@@ -22,6 +26,9 @@ impl Script<'_> {
         self.add_nodes(index, building, &ties);
         self.add_members(index, stick_model);
         self.add_hinges(index, stick_model, &ties)?;
+        self.add_fibres(index, building)?;
+        self.add_arms(index, stick_model);
+        self.add_sliding(index, building)?;
         self.add_storeys(index, building)?;
         self.add_diagonals(index, building)?;
         self.add_foundation(index, building, &ties);
@@ -40,7 +47,9 @@ impl Script<'_> {
             &mut self.springs,
             &mut self.levered,
             &mut self.diagonals,
+            &mut self.fibre_ends,
             &mut self.leaning,
+            &mut self.carried,
         ] {
             table.push_str(&title);
         }
@@ -106,6 +115,9 @@ impl Script<'_> {
                     }
                 })
                 .collect();
+            if node.load != 0.0 {
+                let _ = writeln!(self.carried, "    ({tag}, 0.0, {:?}),", node.load);
+            }
             if fixed.contains(&"1") {
                 let _ = writeln!(self.supports, "    ({tag}, {}),", fixed.join(", "));
             }
@@ -206,6 +218,60 @@ impl Script<'_> {
         Ok(())
     }
 
+    /// What stands at the end of a rigid arm of a joint: faces of walls, and ends of columns that are rigid inside their joints.
+    fn add_arms(&mut self, index: usize, stick_model: &StickModel) {
+        let bending = stick_model.members.iter().map(|member| {
+            let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
+            let length = (b.x - a.x).abs().max((b.y - a.y).abs());
+            12.0 * member.flexural_rigidity / (length * length * length)
+        });
+        let stiffest = bending.fold(0.0, f64::max);
+        for hinge in &stick_model.hinges {
+            let [joint, end] = hinge.ends;
+            let turns_with = hinge.rotational_stiffness.is_none();
+            let tied = [0, 1].map(|component| {
+                let free = hinge.translational_stiffness[component] == Some(0.0);
+                free && stick_model
+                    .ties
+                    .contains_key(&(COMPONENTS * end + component))
+            });
+            if turns_with && tied.contains(&true) {
+                let ends = [joint, end].map(|node| self.tag(index, node));
+                let material = self.materials.elastic(STIFF * stiffest, 0.0);
+                self.lever(ends, material, Turning::First, ProportionalDamping::None);
+                self.remark(
+                    "What stands at the end of a rigid arm is held there by a spring 1e5 times as stiff as the stiffest member in bending.",
+                );
+            }
+        }
+    }
+
+    /// Walls that slide at their feet, and coupling beams that yield in shear.
+    fn add_sliding(&mut self, index: usize, building: &BuildingSystem) -> Result<(), &'static str> {
+        let Discretization {
+            stick_model,
+            sections,
+            ..
+        } = &building.discretization;
+        for (number, element) in stick_model.yielding.iter().enumerate() {
+            let of_fibres = sections.iter();
+            let mut of_fibres = of_fibres.filter(|section| !section.is_surface());
+            if of_fibres.any(|section| section.elements.contains(&number)) {
+                continue;
+            }
+            let [(a, share), (b, _)] = *element.row.entries() else {
+                continue;
+            };
+            let [first, last] = if share < 0.0 { [a, b] } else { [b, a] };
+            let nodes = [first, last].map(|place| self.tag(index, place / COMPONENTS));
+            let material = self.materials.yielding(&element.hysteresis)?;
+            let direction = first % COMPONENTS + 1;
+            let damped = element.proportional_damping;
+            self.spring(nodes[0], nodes[1], &[(direction, material)], damped);
+        }
+        Ok(())
+    }
+
     fn add_storeys(&mut self, index: usize, building: &BuildingSystem) -> Result<(), &'static str> {
         let Discretization {
             stick_model,
@@ -242,6 +308,16 @@ impl Script<'_> {
                 } => match *row.entries() {
                     [(first, 1.0), (last, -1.0)] if first % 3 == 0 && last % 3 == 0 => {
                         Some((*part, *stiffness, [first / 3, last / 3]))
+                    }
+                    // A rigid end of a column leans as a whole by the rotation of its joint.
+                    [(turned, 1.0)] if turned % 3 == 2 => {
+                        let joint = turned / 3;
+                        let Node { x, y, .. } = stick_model.nodes[joint];
+                        let ground = self.ground_point(index, [x, y]);
+                        let material = self.materials.elastic(*stiffness, 0.0);
+                        let last = self.tag(index, joint);
+                        self.spring(ground, last, &[(6, material)], ProportionalDamping::None);
+                        continue;
                     }
                     _ => None,
                 },

@@ -25,7 +25,7 @@ const SAME_LINE: f64 = 1e-9;
 
 /// How much of the rotations of both ends acts on a lever.
 #[derive(Clone, Copy)]
-enum Turning {
+pub(super) enum Turning {
     Both,
     First,
 }
@@ -62,7 +62,7 @@ impl Script<'_> {
         Ok(())
     }
 
-    fn lever(
+    pub(super) fn lever(
         &mut self,
         [first, last]: [usize; 2],
         material: usize,

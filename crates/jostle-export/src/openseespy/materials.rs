@@ -3,8 +3,8 @@
 use jostle::LinkLaw;
 use jostle::contact::ForceLaw;
 use jostle::hysteresis::{
-    Backbone, BackboneSide, Corner, FallingBranch, Hysteresis, HysteresisRule, Side,
-    energy_to_yield,
+    Backbone, BackboneSide, ConcreteFall, Corner, FallingBranch, Hysteresis, HysteresisRule,
+    MenegottoPinto, Side, energy_to_yield,
 };
 use jostle::interface::{Contact, LinkElement};
 
@@ -113,18 +113,40 @@ impl Materials {
                 Ok(self.gap(backbone.initial(), clearance, side.sign()))
             }
             HysteresisRule::Failing(falling) => Ok(self.failing(backbone, falling)),
+            HysteresisRule::Concrete(fall) => Ok(self.concrete(backbone, fall)),
+            HysteresisRule::MenegottoPinto(law) => Ok(self.smooth_steel(backbone, law)),
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Buckling(_)
-            | HysteresisRule::Concrete(_)
-            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::Surface { .. }
             | HysteresisRule::SpaceSurface { .. }
             | HysteresisRule::InPlan { .. }) => Err(rule.name()),
         }
+    }
+
+    /// `Concrete01`: strength and residual strength, with the compressions at which they are reached.
+    fn concrete(&mut self, backbone: &Backbone, fall: ConcreteFall) -> usize {
+        let Corner { deformation, force } = backbone.side(Side::Negative).yielding;
+        let residual = [fall.residual * force, fall.ultimate * deformation];
+        let arguments = [force, deformation].into_iter().chain(residual);
+        self.add("Concrete01", arguments.map(|value| -value).collect())
+    }
+
+    /// `Steel02`, after Menegotto and Pinto as well.
+    fn smooth_steel(&mut self, backbone: &Backbone, law: MenegottoPinto) -> usize {
+        let (initial, post_yield) = (backbone.initial(), backbone.side(Side::Positive).post_yield);
+        let arguments = vec![
+            backbone.yield_force(),
+            initial,
+            post_yield / initial,
+            law.sharpness,
+            law.loss,
+            law.half,
+        ];
+        self.add("Steel02", arguments)
     }
 
     /// An elastic spring that acts beyond a strain, of positive strains with sign 1 and of negative ones with −1.

@@ -6,6 +6,7 @@
 
 mod building;
 mod contacts;
+mod fibres;
 mod foundation;
 mod grounds;
 mod materials;
@@ -19,6 +20,7 @@ mod tables;
 mod ties;
 
 use jostle::hysteresis::HysteresisRule;
+use jostle::structure::FibreSection;
 use jostle::{Hinges, Isolation, Isolator, ModelFault};
 
 use crate::{Export, Exported};
@@ -83,13 +85,6 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         }
     }
     for (index, building) in model.buildings.iter().enumerate() {
-        if let (jostle::Structure::Tiers(_), true) = (&building.structure, building.gravity.preload)
-        {
-            refuse(
-                format!("building[{index}].gravity"),
-                "of buildings with a plan is not exported yet; leave it out to compare".into(),
-            );
-        }
         if let Some(Isolation {
             isolator: Isolator::Pendulum { friction, .. },
             ..
@@ -145,12 +140,11 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "\"all\" cannot be exported: OpenSees has one list of modal ratios for all buildings together; give two modes, such as modes = [1, 2], to compare".into(),
             );
         }
-        if structure
-            .is_some_and(|structure| !structure.structure.discretization.sections.is_empty())
-        {
+        let sections = structure.map(|structure| &structure.structure.discretization.sections);
+        if sections.is_some_and(|sections| sections.iter().any(FibreSection::is_surface)) {
             refuse(
-                format!("building[{index}].hinges"),
-                "of fibres and surfaces are not exported yet; give columns hinges with moments to compare"
+                format!("building[{index}].hinges.rule"),
+                "\"surface\" cannot be exported: OpenSees has no hinge whose axial force and moments are bounded by a polygon; take rule = \"fibre\", or hinges with moments, to compare"
                     .into(),
             );
         }
@@ -186,27 +180,28 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "falls out by out_of_plane.remove, which is not exported yet; leave remove out to compare panels that stay".into(),
             );
         }
-        let frames: Vec<&jostle::Frame> = match &building.structure {
-            jostle::Structure::Frame(frame) => vec![frame],
-            jostle::Structure::Tiers(tiers) => {
-                tiers.frames.iter().map(|frame| &frame.frame).collect()
+        // In one plane arms are exported, but not beside the levers of a foundation.
+        let (walls, ends) = match &building.structure {
+            jostle::Structure::Frame(frame) if building.base.foundation.is_some() => {
+                (!frame.walls.is_empty(), !frame.rigid_zones.is_empty())
             }
-            _ => Vec::new(),
+            jostle::Structure::Tiers(_) => (
+                in_space.is_some_and(|space| !space.walls.is_empty()),
+                in_space.is_some_and(|space| !space.rigid_zones.is_empty()),
+            ),
+            _ => (false, false),
         };
-        let walls_in_space = in_space.is_some_and(|space| !space.walls.is_empty());
-        if walls_in_space || frames.iter().any(|frame| !frame.walls.is_empty()) {
+        if walls {
             refuse(
                 format!("building[{index}].wall"),
-                "stands on rigid arms that turn with it, which are not exported yet; make it a column with its EI, EA and GA to compare frames without arms".into(),
+                "has rigid arms that turn with it, which are exported only in plane frames without a foundation on soil; make it a column with its EI, EA and GA to compare frames without arms".into(),
             );
         }
         // Arms of walls are rigid zones as well.
-        let ends_in_space =
-            !walls_in_space && in_space.is_some_and(|space| !space.rigid_zones.is_empty());
-        if ends_in_space || frames.iter().any(|frame| !frame.rigid_zones.is_empty()) {
+        if ends && !walls {
             refuse(
                 format!("building[{index}].rigid_ends"),
-                "are rigid arms that turn with joints, which are not exported yet; leave them out to compare frames between axes".into(),
+                "are rigid arms that turn with joints, which are exported only in plane frames without a foundation on soil; leave them out to compare frames between axes".into(),
             );
         }
         // Ductility is that of the hinges of columns.

@@ -76,6 +76,8 @@ impl Script<'_> {
             &mut self.springs,
             &mut self.sliders,
             &mut self.levels,
+            &mut self.fibre_ends,
+            &mut self.carried,
             &mut self.space_joints,
             &mut self.space_members,
         ] {
@@ -172,7 +174,7 @@ impl Script<'_> {
             .collect();
         let _ = writeln!(
             self.buildings,
-            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}], \"has_mat\": {},\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": False}},",
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}], \"has_mat\": {},\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": {}}},",
             text(&building.name),
             tags[0],
             self.tag(index, self.next_point[index] - 1),
@@ -180,6 +182,7 @@ impl Script<'_> {
             python_bool(foot.is_some()),
             alpha,
             building.equations.beta,
+            python_bool(model_building.gravity.preload),
         );
         Ok(())
     }

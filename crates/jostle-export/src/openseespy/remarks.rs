@@ -16,14 +16,14 @@ impl Script<'_> {
             HysteresisRule::PeakOriented => Some(Kind::PeakOriented),
             HysteresisRule::Pinched(_) => Some(Kind::Pinched),
             HysteresisRule::Failing(_) => Some(Kind::Failing),
+            HysteresisRule::Concrete(_) => Some(Kind::Concrete),
+            HysteresisRule::MenegottoPinto(_) => Some(Kind::MenegottoPinto),
             HysteresisRule::Elastic
             | HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Buckling(_)
-            | HysteresisRule::Concrete(_)
-            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::Surface { .. }
@@ -64,6 +64,8 @@ impl Script<'_> {
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
+    Concrete,
+    MenegottoPinto,
     Failing,
     PeakOriented,
     Pinched,
@@ -73,6 +75,15 @@ enum Kind {
 impl Kind {
     fn remark(self) -> &'static str {
         match self {
+            Self::Concrete => {
+                "Concrete of fibres is OpenSees' Concrete01, which has the same envelope and the same unloading; jostle's parabola is a \
+                 polygon of 32 chords, up to 2e-4 of the strength away."
+            }
+            Self::MenegottoPinto => {
+                "Bars of fibres with smooth loops are OpenSees' Steel02. Where a bar turns round before it has left its first straight line, \
+                 Steel02 begins another curve, which can lie above; jostle continues the one before. jostle's curves are polygons, up \
+                 to 1e-3 of the yield force away."
+            }
             Self::Failing => {
                 "Columns that fail in shear are OpenSees' LimitState with the falling branch in its backbone; it does not \
                  look for corners inside a step."

@@ -1,6 +1,8 @@
 //! The tables of a script.
 
-use jostle::{ModelFault, ProportionalDamping};
+use std::sync::Arc;
+
+use jostle::{Fibre, ModelFault, ProportionalDamping};
 
 use super::materials::Materials;
 use super::space_frame::joints_of;
@@ -16,6 +18,8 @@ pub(super) struct Script<'a> {
     /// Numbers from which the nodes of a building count.
     block: usize,
     next_element: usize,
+    /// Lists of fibres, in the order of their numbers.
+    pub(super) fibre_lists: Vec<Arc<[Fibre]>>,
     pub(super) buildings: String,
     pub(super) nodes: String,
     pub(super) supports: String,
@@ -29,7 +33,12 @@ pub(super) struct Script<'a> {
     pub(super) diagonals: String,
     /// Bearings in plan that yield or slide.
     pub(super) sliders: String,
+    /// Fibres, and the ends of members that are made of them.
+    pub(super) fibres: String,
+    pub(super) fibre_ends: String,
     pub(super) leaning: String,
+    /// Masses that rise by themselves, and loads on joints.
+    pub(super) carried: String,
     pub(super) contacts: String,
     pub(super) links: String,
     /// Of every building, the next node beyond those of jostle: at a point of the plan, or on a foundation.
@@ -85,6 +94,7 @@ impl<'a> Script<'a> {
             places: Vec::new(),
             block,
             next_element: 1,
+            fibre_lists: Vec::new(),
             buildings: String::new(),
             nodes: String::new(),
             supports: String::new(),
@@ -96,7 +106,10 @@ impl<'a> Script<'a> {
             levered: String::new(),
             diagonals: String::new(),
             sliders: String::new(),
+            fibres: String::new(),
+            fibre_ends: String::new(),
             leaning: String::new(),
+            carried: String::new(),
             contacts: String::new(),
             links: String::new(),
             next_point: Vec::new(),

@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use jostle::structure::{MemberEnd, SpringPlace};
+use jostle::structure::{MemberEnd, MemberPlace, SpringPlace};
 use jostle::system::BuildingSystem;
-use jostle::{Building, PlanAxis, ProportionalDamping, SpaceFrame, SpacePlace, Structure};
+use jostle::{
+    Building, PlanAxis, ProportionalDamping, SpaceFrame, SpaceMember, SpacePlace, Structure,
+};
 
+use super::fibres::FibreEnd;
 use super::script::{Script, python_damping, rounded};
 
 /// Stiffness of springs that join a member to its joint where it has no hinge, in units of the stiffest member \[–\].
@@ -19,9 +22,16 @@ pub(super) fn joints_of(building: &Building) -> usize {
     };
     let frame = tiers.space_frame.as_ref();
     let crossings = frame.map_or(0, |frame| frame.lines_x.len() * frame.lines_y.len());
-    let mut members = frame.into_iter().flat_map(|frame| &frame.members);
-    let hinged = members.by_ref().filter(|member| member.may_yield()).count();
+    let hinged = frame.map_or(0, |frame| {
+        let members = frame.members.iter();
+        members.filter(|member| has_ends(frame, member)).count()
+    });
     crossings * (tiers.floors.len() + 1) + 2 * hinged
+}
+
+/// Whether a member has ends of its own beside its joints.
+fn has_ends(frame: &SpaceFrame, member: &SpaceMember) -> bool {
+    member.may_yield() || frame.fibres.contains_key(&member.place)
 }
 
 impl Script<'_> {
@@ -78,7 +88,7 @@ impl Script<'_> {
                     }
                 };
             }
-            if member.may_yield() {
+            if has_ends(frame, member) {
                 for (end, tag) in [MemberEnd::First, MemberEnd::Last]
                     .into_iter()
                     .zip(&mut ends)
@@ -110,6 +120,7 @@ impl Script<'_> {
                 ends[0], ends[1], section.torsional_rigidity, towards[0], towards[1], towards[2],
             );
         }
+        self.add_carried(building, &tags);
         for diagonal in &frame.diagonals {
             let Some(crossings) = diagonal.place.crossings() else {
                 continue;
@@ -128,6 +139,30 @@ impl Script<'_> {
         Ok(())
     }
 
+    /// Masses and loads of floors that columns carry.
+    fn add_carried(
+        &mut self,
+        building: &BuildingSystem,
+        tags: &BTreeMap<(usize, [usize; 2]), usize>,
+    ) {
+        let nodes = &building.discretization.stick_model.nodes;
+        let joints = building.discretization.jointed_frame.iter();
+        // Joints on columns that keep their length rise by one node.
+        let mut carried = BTreeMap::new();
+        for joint in joints.flat_map(|frame| &frame.joints) {
+            let tag = tags.get(&(joint.floor + 1, joint.crossing));
+            if let (Some(node), Some(tag)) = (joint.nodes[0], tag) {
+                carried.insert(node, *tag);
+            }
+        }
+        for (node, tag) in carried {
+            let (mass, load) = (nodes[node].inertia[2], nodes[node].load);
+            if mass != 0.0 || load != 0.0 {
+                let _ = writeln!(self.carried, "    ({tag}, {mass:?}, {load:?}),");
+            }
+        }
+    }
+
     /// A node for an end of a member with hinges, and the springs between it and its joint; returns the node.
     fn add_hinged_end(
         &mut self,
@@ -140,6 +175,27 @@ impl Script<'_> {
         let tag = self.tag(index, self.next_point[index]);
         self.next_point[index] += 1;
         let sticks = &building.discretization.stick_model;
+        let mut sections = building.discretization.sections.iter();
+        let place = MemberPlace::InSpace(hinges.place);
+        let fibres = sections.find(|section| (section.member, section.end) == (place, hinges.end));
+        if let Some(section) = fibres {
+            let nodes = match hinges.end {
+                MemberEnd::First => [joint, tag],
+                MemberEnd::Last => [tag, joint],
+            };
+            let end = FibreEnd {
+                section,
+                nodes,
+                direction: frame.direction,
+            };
+            self.add_fibre_end(building, &end)?;
+            let [c, s] = frame.direction;
+            let _ = writeln!(
+                self.space_hinges,
+                "    ({tag}, {joint}, ({c:?}, {s:?}), ()),"
+            );
+            return Ok(tag);
+        }
         // Rises, and turns about x and about y of the lines.
         let [vertical, turning] = hinges.stiff;
         let rigid = ProportionalDamping::None;

@@ -134,6 +134,24 @@ impl Script<'_> {
         )?;
         table(
             out,
+            "FIBRES",
+            "number of a section, distances of a fibre from its axis [m], material of its force [N] over its elongation [m]",
+            &self.fibres,
+        )?;
+        table(
+            out,
+            "FIBRE_ENDS",
+            "element, node below, node above, number of the section, unit vector of its first axis, name",
+            &self.fibre_ends,
+        )?;
+        table(
+            out,
+            "CARRIED",
+            "node, mass that rises with it beside that of the floor [kg], load that stands on it [N]",
+            &self.carried,
+        )?;
+        table(
+            out,
             "RIGID",
             "element, first node, last node, direction that does not give way, whether ties see to it",
             &self.rigid,

@@ -4,7 +4,8 @@
 //! applies the first and ignores the rest. So horizontal ties come first, and anything that would need a second
 //! constraint is left to very stiff elements.
 //!
-//! Buildings on a foundation need `Plain`, which ties single displacements: there every displacement has a constraint of its own.
+//! Buildings on a foundation or with rigid arms need `Plain`, which ties single displacements: there every displacement has a constraint of
+//! its own.
 
 use std::collections::BTreeMap;
 
@@ -83,7 +84,8 @@ impl Ties {
                 }
             }
         }
-        let on_foundation = stick_model.foundation.is_some();
+        // Arms and foundations need the handler `Plain`, which every building in one plane has.
+        let single = !stick_model.ties.is_empty();
         let classes: Vec<usize> = (0..stick_model.nodes.len() * COMPONENTS)
             .map(|at| union.root(at))
             .collect();
@@ -120,7 +122,7 @@ impl Ties {
             let [first, others @ ..] = &nodes[..] else {
                 continue;
             };
-            let possible = on_foundation
+            let possible = single
                 || leader[*first].is_none()
                     && others.iter().all(|node| {
                         !is_leader[*node] && leader[*node].is_none_or(|known| known == *first)

@@ -1,6 +1,7 @@
 //! Exported scripts: read back as tables, and compared with runs of OpenSees.
 
 mod driver;
+mod fibres;
 mod grounds;
 mod member_forces;
 mod openseespy;

@@ -80,6 +80,7 @@ def build(axial):
         ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 2, "-shearDist", share, *extra)
     add_diagonals()
     add_sliders()
+    add_fibres()
     if any(axial == "stiff" or not tied for *_, tied in RIGID):
         rigid = len(MATERIALS) + 1
         ops.uniaxialMaterial("Elastic", rigid, stiffest or 1e12)
@@ -114,6 +115,20 @@ def add_sliders():
     for number, (tag, ground, mat, stiffness, strength) in enumerate(SLIDERS, start=1):
         ops.section("Bidirectional", number, stiffness, strength, 0.0, 0.0)
         ops.element("zeroLengthSection", tag, ground, mat, number, "-doRayleigh", 0)
+
+
+def add_fibres():
+    """Ends of members made of fibres: sections without length, so that strains are elongations, and areas of one."""
+    known = None
+    for section, along, across, material in FIBRES:
+        if section != known:
+            known = section
+            # Ties or a diaphragm see to torsion.
+            ops.section("Fiber", len(SLIDERS) + section, *(["-GJ", 1.0] if IN_SPACE else []))
+        ops.fiber(-along, -across, 1.0, material)
+    for tag, lower, upper, section, (x, y), _ in FIBRE_ENDS:
+        axis = [0.0, 0.0, 1.0] if IN_SPACE else [0.0, 1.0, 0.0]
+        ops.element("zeroLengthSection", tag, lower, upper, len(SLIDERS) + section, "-orient", *axis, -x, -y, 0.0, "-doRayleigh", 0)
 
 
 def add_contacts():
@@ -176,6 +191,8 @@ def build_in_space():
                 feet.append(tag)
     for tag, *_ in SUPPORTS:
         ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    for tag, mass, _ in CARRIED:
+        ops.mass(tag, 0.0, 0.0, mass, 0.0, 0.0, 0.0)
     floors = {tag: floor for tag, *_, floor in JOINTS}
     for tag, joint, *_ in HINGED_ENDS:
         where[tag] = where[joint]
@@ -217,6 +234,7 @@ def build_in_space():
         ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
     add_diagonals()
     add_sliders()
+    add_fibres()
     add_contacts()
 
 

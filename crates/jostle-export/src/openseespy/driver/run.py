@@ -1,15 +1,17 @@
 def load_by_weight(axial):
     """Every building that starts under its weight gets it, and settles."""
-    if not any(building["weight"] for building in BUILDINGS):
+    weights = {tag: mass * GRAVITY for tag, _, _, mass, _ in NODES if not IN_PLAN}
+    for tag, mass, load in CARRIED:
+        weights[tag] = weights.get(tag, 0.0) + mass * GRAVITY + load
+    standing = [range(first, last + 1) for first, last in (building["nodes"] for building in BUILDINGS if building["weight"])]
+    weights = {tag: weight for tag, weight in weights.items() if weight and any(tag in nodes for nodes in standing)}
+    if not weights:
         return
     prepare(axial)
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
-    for building in BUILDINGS:
-        first, last = building["nodes"]
-        for tag, _, _, mass, _ in NODES:
-            if building["weight"] and first <= tag <= last and mass:
-                ops.load(tag, 0.0, -mass * GRAVITY, 0.0)
+    for tag, weight in weights.items():
+        ops.load(tag, *((0.0, 0.0, -weight, 0.0, 0.0, 0.0) if IN_SPACE else (0.0, -weight, 0.0)))
     ops.algorithm("Newton")
     ops.integrator("LoadControl", 0.1)
     ops.analysis("Static")
@@ -202,9 +204,30 @@ def envelopes(folder):
         elements = [row[0] for row in LINKS if row[-1] == turning]
         if elements:
             ops.recorder("EnvelopeElement", "-file", os.path.join(folder, name), "-precision", 12, "-ele", *elements, force)
+    if FIBRE_ENDS:
+        elements = [row[0] for row in FIBRE_ENDS]
+        ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "sections"), "-precision", 12, "-ele", *elements, "section", "force")
     if VERTICAL:
         tags = [tag for masses in masses_of_floors() for tag in masses]
         ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "vertical"), "-precision", 12, "-node", *tags, "-dof", 2, "disp")
+
+
+def forces_of_sections(folder):
+    """Greatest forces of fibres of every end: axial, positive in tension, and moments, as jostle counts them."""
+    low, high, _ = read(folder, "sections")
+    both = list(zip(low, high))
+    keys = [("axial", "n", 1.0), ("moment", "n_m", 1.0)]
+    if IN_SPACE:
+        keys.append(("moment_across", "n_m", -1.0))
+    # Torsion comes last.
+    count = len(keys) + IN_SPACE
+    found = {}
+    for place, (tag, *_) in enumerate(FIBRE_ENDS):
+        own = found[tag] = {}
+        for (key, unit, sign), extremes in zip(keys, both[count * place :]):
+            least, most = sorted(sign * value for value in extremes)
+            own.update({f"{key}_max_{unit}": most, f"{key}_min_{unit}": least})
+    return found
 
 
 def masses_of_floors():
@@ -256,6 +279,7 @@ def analyse(args):
         if CONTACTS and not IN_PLAN:
             forces = read(folder, "forces")[0]
         vertical = iter(read(folder, "vertical")[2] if VERTICAL else [])
+        sections = forces_of_sections(folder) if FIBRE_ENDS else {}
         pulls = {}
         for name, _, turning in LINK_FORCES:
             elements = [row[0] for row in LINKS if row[-1] == turning]
@@ -278,6 +302,10 @@ def analyse(args):
                     unit = "rad" if key == "rotation" else "m"
                     floors[-1][f"{key}_max_{unit}"], floors[-1][f"{key}_min_{unit}"] = next(peaks_of_floors)
         buildings.append({"name": building["name"], "floors": floors})
+        first, last = building["nodes"]
+        own = [{"name": row[-1], **sections[row[0]]} for row in FIBRE_ENDS if first <= row[1] <= last]
+        if own:
+            buildings[-1]["sections"] = own
         if "foundation" in building:
             sway, rocking = (peaks.of[building["foundation"], direction] for direction in (1, 3))
             buildings[-1]["foundation"] = {
@@ -354,7 +382,7 @@ def main():
     used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
     used += [row[3] for row in (*LEVERED, *DIAGONALS)]
     used += [material for *_, springs in HINGED_ENDS for *_, material, _ in springs]
-    yields = bool(SLIDERS) or any(MATERIALS[material - 1][0] != "Elastic" for material in used)
+    yields = bool(SLIDERS or FIBRE_ENDS) or any(MATERIALS[material - 1][0] != "Elastic" for material in used)
     parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")
     parser.add_argument("--uniform", type=float, metavar="DT", help="one step size throughout [s]")
     parser.add_argument("--free", type=float, default=FREE_STEP, metavar="DT", help="step in free vibration [s] (%(default)s)")
