@@ -489,19 +489,12 @@ fn line_of(error: &jostle_io::InputError) -> String {
     let first = error.faults.first();
     cell(&first.map_or_else(String::new, |fault| {
         let key = fault.path.rsplit(['.', ']']).next().unwrap_or_default();
-        match key.is_empty()
-            || fault.problem.starts_with("unknown")
-            || fault.problem.starts_with(key)
-        {
-            true => fault.problem.clone(),
-            false
-                if ["is ", "and "]
-                    .iter()
-                    .any(|word| fault.problem.starts_with(word)) =>
-            {
-                format!("{key} {}", fault.problem)
-            }
-            false => format!("{key}: {}", fault.problem),
+        let problem = &fault.problem;
+        let goes_on = GOES_ON.iter().any(|words| problem.starts_with(words));
+        match key.is_empty() || problem.starts_with("unknown") || problem.starts_with(key) {
+            true => problem.clone(),
+            false if goes_on => format!("{key} {problem}"),
+            false => format!("{key}: {problem}"),
         }
     }))
 }
