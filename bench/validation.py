@@ -11,7 +11,7 @@ FOLDER = Path(__file__).resolve().parent.parent / "crates/jostle-validation/data
 FREE = 5e-4
 FREE_IN_PLAN = 1e-4
 # Half of that where the force of a blow moves by more than 3e-4.
-HALVED = {"damping_tangent", "fibres", "grounds"}
+HALVED = {"continuous", "damping_tangent", "fibres", "grounds"}
 
 
 def stored(answer, free):

@@ -218,8 +218,8 @@ const FAMILIES: [(&str, &str, Make); 27] = [
     (
         "Yielding frames, bearings, links, soil and ground motions in OpenSees",
         "Models with hinges at every member end; bearings with stops, a moat wall and links of every law that can be \
-         exported; ends of columns and walls made of fibres; walls, coupling beams and rigid ends on rigid arms; foundations on \
-         soil, some of them coupled; spatially varying ground motion; vertical ground motion; and most other features, \
+         exported; ends of columns and walls made of fibres; walls, coupling beams and rigid ends on rigid arms; beams that are continuous \
+         over missing columns; foundations on soil, some of them coupled; spatially varying ground motion; vertical ground motion; and most other features, \
          from model files with a tolerance of 10⁻⁴. The reference is OpenSees with the exported scripts and steps of \
          0.5 ms, near contact 0.05 ms. Peak forces of fibres are compared to 10⁻³, because axial \
          forces converge slowly with the step.",

@@ -11,7 +11,7 @@ use crate::fibre_ends;
 use crate::files::{case, model, run_model};
 use crate::row::Row;
 
-const CASES: [(&str, &str, &str, f64); 15] = [
+const CASES: [(&str, &str, &str, f64); 16] = [
     // 1.3·10⁻³ when quartered: of second order, so that a fifteenth of it is left.
     case!("inelastic", 1e-4),
     // When halved; its peak-oriented springs overshoot corners, which is of first order.
@@ -34,6 +34,8 @@ const CASES: [(&str, &str, &str, f64); 15] = [
     case!("fibres", 3e-4),
     case!("fibre_walls", 1e-4),
     case!("arms", 2e-4),
+    // When halved: 2.0·10⁻⁴ of displacements and of a force; of second order.
+    case!("continuous", 1e-4),
 ];
 /// Ours, on peak forces and displacements \[–\].
 const TOLERANCE: f64 = 1e-4;
