@@ -454,7 +454,10 @@ pub(super) fn places(
                     reach: Reach::BAY,
                     strut: StrutLine::Central,
                 };
-                if !names_all && !(bays.has_joints)(place) {
+                // Panels fill bays between columns.
+                let columns = (bays.column_rigidity)(place);
+                let is_framed = kind == DiagonalKind::Brace || columns.iter().all(Option::is_some);
+                if !names_all && !(is_framed && (bays.has_joints)(place)) {
                     continue;
                 }
                 found.push(diagonal(place, stiffness(place, bays.length(place))?));

@@ -255,6 +255,16 @@ fn beams_are_continuous_where_a_column_is_missing() {
             "{brace:?}"
         );
     }
+    // Panels fill bays between columns, those of whole storeys too.
+    let infill = "[[building.infill]]\nstiffness = \"80 MN/m\"\n";
+    let filled = frame(&format!("{MOTION}{PODIUM}{missing}{infill}"));
+    assert_eq!(filled.diagonals.len(), 2 * (1 + 3 + 1 + 1));
+    let named = format!("{MOTION}{PODIUM}{missing}{infill}bay = 1\nstoreys = 1\n");
+    let said = refusal(&named);
+    assert!(
+        said.contains("fills a bay without a column at line 2"),
+        "{said}"
+    );
     // A wall has no place on a beam.
     let wall =
         "[[building.wall]]\nline = 2\nstoreys = [2, 4]\nlength = \"1 m\"\nthickness = \"0.2 m\"\n";

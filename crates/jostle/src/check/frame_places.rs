@@ -152,6 +152,14 @@ pub(super) fn fault_of_diagonal(frame: &Frame, place: DiagonalPlace) -> Option<S
             "{place} is next to axially rigid columns, so it carries no force; add axial = \"flexible\" to the building, or leave it out"
         ));
     }
+    let mut lines = [lower, upper].into_iter();
+    let lacking = lines.find(|line| frame.column(low, *line).is_none());
+    if let Some(line) = lacking.filter(|_| place.kind == DiagonalKind::Infill) {
+        return Some(format!(
+            "{place} fills a bay without a column at line {}; leave it out there, or add the column",
+            line + 1
+        ));
+    }
     let mut loose = [(low, lower), (high, upper)].into_iter();
     let (floor, line) = loose.find(|(floor, line)| !frame.has_joint(*floor, *line))?;
     Some(format!(

@@ -169,6 +169,20 @@ fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) ->
             "{place} is next to axially rigid columns, so it carries no force; take axial = \"flexible\", or leave it out"
         ));
     }
+    let stands = |line: &[usize; 2]| {
+        let (line, storey) = (*line, low);
+        let column = SpacePlace::Column { line, storey };
+        frame.members.iter().any(|member| member.place == column)
+    };
+    let mut crossings = [lower, upper].into_iter();
+    let lacking = crossings.find(|line| !stands(line));
+    if let Some([x, y]) = lacking.filter(|_| place.kind == DiagonalKind::Infill) {
+        return Some(format!(
+            "{place} fills a bay without a column at x = {}, y = {}; leave it out there, or add the column",
+            x + 1,
+            y + 1
+        ));
+    }
     let mut loose = [(low, lower), (high, upper)].into_iter();
     let (floor, [x, y]) = loose.find(|(floor, at)| !frame.has_joint(*floor, *at))?;
     Some(format!(
