@@ -457,7 +457,8 @@ pub(super) fn places(
                 // Panels fill bays between columns.
                 let columns = (bays.column_rigidity)(place);
                 let is_framed = kind == DiagonalKind::Brace || columns.iter().all(Option::is_some);
-                if !names_all && !(is_framed && (bays.has_joints)(place)) {
+                let fits = is_framed && (bays.has_joints)(place);
+                if !(names_all || fits) {
                     continue;
                 }
                 found.push(diagonal(place, stiffness(place, bays.length(place))?));
