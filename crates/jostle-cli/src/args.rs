@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jostle_section::capacity::ShearRule;
+use jostle_section::capacity::CapacityRule;
 
 use crate::Described;
 
@@ -99,9 +99,9 @@ pub(crate) struct RunArgs {
     /// Add response spectra of every floor, with and without contact, like floor_spectra = true in the model file
     #[arg(long)]
     pub(crate) floor_spectra: bool,
-    /// Compare reinforced columns and beams with their capacity by these rules; the first rule governs. Implies --members.
-    /// Without a rule: all rules, if ties are known
-    #[arg(long, value_name = "RULE", num_args = 0..=1, default_missing_values = ShearRule::ALL.map(ShearRule::name), value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
+    /// Compare columns and beams with bars, or of steel profiles, with their capacity by these rules; the first rule governs.
+    /// Implies --members. Without a rule: all rules, if ties, or yield strengths of profiles, are known
+    #[arg(long, value_name = "RULE", num_args = 0..=1, default_missing_values = CapacityRule::ALL.map(CapacityRule::name), value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(CapacityRule::ALL.map(CapacityRule::name)))]
     pub(crate) capacity: Vec<String>,
     /// Also run at both ends of the recommended range of contact stiffness and with restitution ± 0.15, and report
     /// the spread

@@ -12,7 +12,7 @@ use jostle_run::{
     Content, EXAMPLE, FileKind, FolderClaim, GradientRequest, Opened, Pace, Prepared, Ran, Results,
     Stage, describe_summary, earlier_files, grouped, may_write, stopped_by,
 };
-use jostle_section::capacity::ShearRule;
+use jostle_section::capacity::CapacityRule;
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
@@ -252,18 +252,18 @@ fn found_gradients(request: &GradientRequest, stop: &AtomicBool) -> Result<Vec<G
 /// model file, or all where capacities are known, if none is named.
 fn follow_members(opened: &mut Opened, rules: &[String]) -> Result<(), Failure> {
     let input = Arc::make_mut(&mut opened.input);
-    let rules: Vec<ShearRule> = rules
+    let rules: Vec<CapacityRule> = rules
         .iter()
-        .filter_map(|name| ShearRule::from_name(name))
+        .filter_map(|name| CapacityRule::from_name(name))
         .collect();
     if rules.is_empty() {
         input.ask_for_members();
     } else {
         input.ask_for_capacity(&rules);
         if input.model.analysis.members.capacities.is_empty() {
-            let missing = match input.reinforced.is_empty() {
+            let missing = match input.members.reinforced.is_empty() {
                 true => {
-                    "no member has bars; add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam"
+                    "no member has bars; add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam; or yield_strength = \"355 MPa\" to a profile, with the rule aisc360"
                 }
                 false => {
                     "members have bars, but no ties; add ties = \"d10 @ 100 mm\" to column, and likewise to beam"

@@ -496,9 +496,17 @@ pub(crate) const MEASURES: [&str; 3] = ["PGA", "Sa(T1)", "AvgSA"];
 /// Systems of units for texts and pages.
 pub(crate) const UNIT_SYSTEMS: &[&str] = &["si", "us"];
 /// Rules for the capacity of columns and beams, in the order of
-/// [`ShearRule::ALL`](jostle_section::capacity::ShearRule::ALL).
-pub(crate) const CAPACITY_RULES: &[&str] =
-    &["gb50010", "en1998-3", "asce41", "aci318", "sezen-moehle"];
+/// [`CapacityRule::ALL`](jostle_section::capacity::CapacityRule::ALL).
+pub(crate) const CAPACITY_RULES: &[&str] = &[
+    "gb50010",
+    "en1998-3",
+    "asce41",
+    "aci318",
+    "sezen-moehle",
+    "aisc360",
+];
+/// Those of reinforced concrete, in the order of [`ShearRule::ALL`](jostle_section::capacity::ShearRule::ALL).
+pub(crate) const SHEAR_RULES: &[&str] = CAPACITY_RULES.split_at(5).0;
 
 /// Grades of reinforced sections.
 pub(crate) const SECTION_CONCRETES: &[&str] = &joined::<23>(&[
@@ -938,6 +946,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::SpaceColumn, "size", Quantities(D::Length), "Widths along x and across; needed unless profile or omit is given.").usual("a section size", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::SpaceColumn, "profile", TextOrTable(S::Profile), "Steel profile instead of size, as for columns of plane frames; stiffness_factor and torsion_factor do not apply to it."),
     optional(S::SpaceColumn, "axis", Choice(AXES), "Axis of the profile about which the column bends along x; `strong` if not given."),
+    optional(S::SpaceColumn, "yield_strength", Quantity(D::Stress), "Yield strength of the steel of a profile, such as `\"355 MPa\"`. Demands are then compared with the capacity by AISC 360.").usual("a yield strength", 1e8, 2e9),
     default(S::SpaceColumn, "x", Kind::FromTo, "all", "Line of lines_x, counted from 1; or the first and the last."),
     default(S::SpaceColumn, "y", Kind::FromTo, "all", "Line of lines_y, likewise."),
     default(S::SpaceColumn, "storeys", Kind::FromTo, "all", "Storey, likewise."),
@@ -954,6 +963,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::SpaceBeam, "depth", Quantity(D::Length), "Depth in the direction of bending; needed unless profile or omit is given.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::SpaceBeam, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth, as for columns."),
     optional(S::SpaceBeam, "axis", Choice(AXES), "Axis of the profile about which the beam bends in its vertical plane; `strong` if not given."),
+    optional(S::SpaceBeam, "yield_strength", Quantity(D::Stress), "Yield strength of the steel of a profile, as for columns.").usual("a yield strength", 1e8, 2e9),
     optional(S::SpaceBeam, "slab", Kind::Table(S::Slab), "Slab that acts as the upper flange of a beam with width and depth: `{ depth = \"150 mm\", width = \"en1992\", spacing = \"4.7 m\" }`. A span that no beam continues is an end span. GJ and hinges ignore the slab."),
     default(S::SpaceBeam, "x", Kind::FromTo, "all", "Line of lines_x at which a beam along x begins, or on which a beam across lies, counted from 1; or the first and the last."),
     default(S::SpaceBeam, "y", Kind::FromTo, "all", "Line of lines_y on which a beam along x lies, or at which a beam across begins, counted likewise."),
@@ -1000,6 +1010,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Column, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth: a name, such as `\"HEB300\"` (IPE, HEA, HEB), `\"W14X90\"` (W shapes) or `\"HSS8X6X3/8\"` (American tubes), or dimensions of an I shape. E is 210 GPa, or 29 000 ksi with an American name, unless the building states elastic_modulus. The density is 7850 kg/m3, and no cracking factor applies."),
     optional(S::Column, "axis", Choice(AXES), "Axis of the profile for bending; `strong` if not given."),
+    optional(S::Column, "yield_strength", Quantity(D::Stress), "Yield strength of the steel of a profile, such as `\"355 MPa\"`. Demands are then compared with the capacity by AISC 360.").usual("a yield strength", 1e8, 2e9),
     optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible columns.").usual("an axial rigidity", 1e5, 1e13),
     optional(S::Column, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for columns with shear deformation.").usual("a shear rigidity", 1e4, 1e13),
@@ -1020,6 +1031,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Beam, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Beam, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth, as for columns."),
     optional(S::Beam, "axis", Choice(AXES), "Axis of the profile for bending; `strong` if not given."),
+    optional(S::Beam, "yield_strength", Quantity(D::Stress), "Yield strength of the steel of a profile, as for columns.").usual("a yield strength", 1e8, 2e9),
     optional(S::Beam, "slab", Kind::Table(S::Slab), "Slab that acts as the upper flange of a beam with width and depth: `{ depth = \"150 mm\", width = \"en1992\", spacing = \"4.7 m\" }`. Hinges ignore the slab."),
     optional(S::Beam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible beams.").usual("an axial rigidity", 1e5, 1e13),
@@ -1171,7 +1183,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::RotationLevels, "ls", Quantity(D::Dimensionless), "Life safety.").usual("a rotation", 1e-4, 0.2),
     optional(S::RotationLevels, "cp", Quantity(D::Dimensionless), "Collapse prevention.").usual("a rotation", 1e-4, 0.2),
 
-    optional(S::ShearFailure, "rule", Choice(CAPACITY_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
+    optional(S::ShearFailure, "rule", Choice(SHEAR_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
     optional(S::ShearFailure, "strength", PerStorey(D::Force), "Shear strength of the columns, instead of rule.").usual("a shear strength", 100.0, 1e9),
     default(S::ShearFailure, "slope", PerStorey(D::Stiffness), "by Elwood and Moehle, from axial load and ties", "Loss of shear force per drift after failure; required with strength.").usual("a slope", 1e3, 9e10).signed(),
     default(S::ShearFailure, "axial_first", Choice(AXIAL_FIRST), "\"refuse\"", "rule: treatment of columns whose axial failure would precede shear failure, by Elwood and Moehle. \"refuse\" rejects the model. \"axial-limit\": shear decreases from the shear strength until the drift at axial failure; the axial load is kept."),
@@ -1380,7 +1392,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the peaks of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, bay), whose histories are written as well."),
     default(S::Output, "links", Flag, "false", "Whether `history.parquet` contains the stroke and the speed of every link and damper, in addition to its force."),
     default(S::Output, "interval", Quantity(D::Time), "\"5 ms\"", "Minimum time between rows of histories in free vibration; every step with a closed contact has a row. A longer interval makes files smaller.").usual("a time between rows", 1e-4, 1.0),
-    default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if member forces are requested and ties are known", "Compare shear and moment of reinforced columns and beams with their capacity at every instant: a rule; a list of rules, of which the first governs; true for all, of which the rule of the country of the steel grade governs, or of the concrete where steel is a strength; or false for none. Implies the forces of all members."),
+    default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if member forces are requested and ties, or yield strengths of profiles, are known", "Compare shear and moment of columns and beams with their capacity at every instant: a rule; a list of rules, of which the first governs; true for all, of which the rule of the country of the steel grade governs, or of the concrete where steel is a strength; or false for none. `aisc360` is for profiles with yield_strength, the others for reinforced concrete. Implies the forces of all members."),
 
     default(S::Output, "units", Choice(UNIT_SYSTEMS), "\"si\"", "Units of texts and pages: \"si\" for mm, m, kN, MPa and t; \"us\" for in, ft, kip, ksi, with masses as weights in kip. Files whose keys or columns name SI units, such as `summary.json`, Parquet and CSV, always use SI."),
     default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),

@@ -78,8 +78,8 @@ pub use keys::LAW_NAMES;
 pub use knobs::{Knob, KnobKind};
 pub use matrices::numpy_archive;
 pub use model_file::{
-    CapacityRequest, FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember,
-    TitleBlock, read_model_file, read_model_text,
+    CapacityRequest, FloorSpectraRequest, Input, KnownMembers, OverrideError, Overrides,
+    ProfiledMember, ReinforcedMember, TitleBlock, read_model_file, read_model_text,
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{

@@ -64,7 +64,7 @@ mod wall_fibres;
 pub use capacity::CapacityRequest;
 pub use floor_spectra::FloorSpectraRequest;
 pub(crate) use matching::read_spectrum;
-pub use reinforced::ReinforcedMember;
+pub use reinforced::{KnownMembers, ProfiledMember, ReinforcedMember};
 pub use report::TitleBlock;
 
 use std::collections::BTreeSet;
@@ -75,7 +75,7 @@ use jostle::judgement::Stated;
 use jostle::separation::CodeInputs;
 use jostle::{GroundMotion, LinkLaw, Model, ModelFault};
 use jostle_motion::{GoverningRule, TargetSpectrum};
-use jostle_section::capacity::ShearRule;
+use jostle_section::capacity::CapacityRule;
 
 use self::building::Buildings;
 use self::damper::DamperPaths;
@@ -100,8 +100,8 @@ pub struct Input {
     pub model: Model,
     /// The ground motion; `None` if the file has none.
     pub motion: Option<MotionSpec>,
-    /// Members of frames whose reinforcement the file states, building by building, columns first.
-    pub reinforced: Vec<ReinforcedMember>,
+    /// Members of frames whose strength the file states, building by building, columns first.
+    pub members: KnownMembers,
     /// Spectra of floors that the file asks for; `None` if it asks for none.
     pub floor_spectra: Option<FloorSpectraRequest>,
     /// Rule for the governing value of several records, if the file names one.
@@ -225,7 +225,7 @@ pub(crate) fn read_tree(
         Some(Parts {
             model,
             motion,
-            reinforced,
+            members,
             capacity,
             codes,
             north,
@@ -251,10 +251,10 @@ pub(crate) fn read_tree(
                 records: motion
                     .as_ref()
                     .map_or(0, |motion| motion.records().len().max(1)),
-                buildings: stated::of_buildings(&model, &root, &reinforced),
+                buildings: stated::of_buildings(&model, &root, &members.reinforced),
                 silenced,
             },
-            reinforced,
+            members,
             accepted,
             files: files.clone(),
             model,
@@ -367,11 +367,11 @@ impl Input {
     /// Asks for the greatest forces of all columns and beams, and for demands over capacities where these are known.
     pub fn ask_for_members(&mut self) {
         self.model.analysis.members.envelopes = true;
-        capacity::fill(&mut self.model, &self.capacity, &self.reinforced);
+        capacity::fill(&mut self.model, &self.capacity, &self.members);
     }
 
     /// Sets the rules for capacities, the first of which governs, and asks for forces of members.
-    pub fn ask_for_capacity(&mut self, rules: &[ShearRule]) {
+    pub fn ask_for_capacity(&mut self, rules: &[CapacityRule]) {
         self.capacity = CapacityRequest::Rules(rules.to_vec());
         self.ask_for_members();
     }
@@ -546,7 +546,7 @@ struct Parts {
     model: Model,
     dampers: DamperPaths,
     motion: Option<MotionSpec>,
-    reinforced: Vec<ReinforcedMember>,
+    members: KnownMembers,
     capacity: CapacityRequest,
     codes: CodeInputs,
     north: Option<f64>,
@@ -615,7 +615,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     let mut units = None;
     if let Some(field) = reader.get(&view, "output") {
         let read = buildings.as_ref();
-        let read = read.map(|read| (&read.buildings[..], &read.members[..]));
+        let read = read.map(|read| (&read.buildings[..], &read.members));
         (analysis.members, floor_spectra, capacity) = output::read(reader, &field, read);
         analysis.link_motion = output::link_motion(reader, &field);
         units = output::units(reader, &field);
@@ -639,7 +639,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     });
     let Buildings {
         mut buildings,
-        members: reinforced,
+        members,
         at,
         dampers,
         ..
@@ -673,11 +673,11 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     grounds::read_own(reader, &view, &mut motion, &model, files);
     shear_failure::add_heads(&mut model, reader, &view);
     given_modes::soften_contacts(&mut model, reader, &view);
-    capacity::fill(&mut model, &capacity, &reinforced);
+    capacity::fill(&mut model, &capacity, &members);
     Some(Parts {
         model,
         motion,
-        reinforced,
+        members,
         capacity,
         codes,
         north,

@@ -74,7 +74,7 @@ impl<'a> Results<'a> {
 /// Reinforced sections of a model; members with the same section share one.
 fn reinforced(input: &Input) -> Vec<ReinforcedSection<'_>> {
     let mut sections: Vec<ReinforcedSection<'_>> = Vec::new();
-    for member in &input.reinforced {
+    for member in &input.members.reinforced {
         let alike = sections.iter_mut().find(|known| {
             known.building == member.building
                 && known.member == member.member

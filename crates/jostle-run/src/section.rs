@@ -128,7 +128,7 @@ pub fn section(args: &SectionOptions) -> Result<SectionSurvey, RunError> {
 /// [`RunError::Argument`] if no member is reinforced.
 pub fn sections(input: &Input, name: &str) -> Result<Vec<SectionSurvey>, RunError> {
     let mut kinds: Vec<(&jostle_io::ReinforcedMember, Vec<(usize, usize)>)> = Vec::new();
-    for member in &input.reinforced {
+    for member in &input.members.reinforced {
         let alike = kinds.iter_mut().find(|(other, _)| {
             other.building == member.building
                 && other.member == member.member

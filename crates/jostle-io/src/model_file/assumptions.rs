@@ -4,7 +4,7 @@
 use jostle::hysteresis::Hysteresis;
 use jostle::{Frame, Hinges, Model, Structure};
 
-use super::{CapacityRequest, Input};
+use super::{CapacityRequest, Input, KnownMembers};
 use crate::quantity::{Dimension, parse_quantity};
 use crate::tree::{Node, Table, Value};
 
@@ -25,15 +25,22 @@ impl Input {
     /// that this is meant.
     #[must_use]
     pub fn unrated(&self) -> Option<String> {
-        let is_known = self
-            .reinforced
+        let KnownMembers {
+            reinforced,
+            profiled,
+        } = &self.members;
+        let is_tied = reinforced
             .iter()
             .any(|member| member.section.ties.is_some());
+        let is_known = is_tied || !profiled.is_empty();
         let is_asked = self.model.analysis.members.envelopes;
         let is_left = is_known && !is_asked && self.capacity == CapacityRequest::WhereKnown;
         is_left.then(|| {
-            "columns and beams have bars and ties, but are not compared with their capacity: add members = true under [output]"
-                .to_owned()
+            let known = match is_tied {
+                true => "bars and ties",
+                false => "profiles with a yield strength",
+            };
+            format!("columns and beams have {known}, but are not compared with their capacity: add members = true under [output]")
         })
     }
 }

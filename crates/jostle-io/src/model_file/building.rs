@@ -9,7 +9,7 @@ use jostle::{
 
 use super::damper::{self, Damper};
 use super::places::is_by_place;
-use super::reinforced::{self, ReinforcedInPlan, ReinforcedMember};
+use super::reinforced::{self, KnownMembers, ReinforcedInPlan};
 use super::{
     codes, frame, given, given_in_plan, hinges, isolation, joint, plan, plan_frames,
     rotation_limits, shear, shear_failure, soil, soil_spring,
@@ -29,8 +29,8 @@ const MOST_STOREYS: usize = 200;
 /// Buildings, and what a file says of them beyond.
 pub(super) struct Buildings {
     pub(super) buildings: Vec<Building>,
-    /// Their reinforced members.
-    pub(super) members: Vec<ReinforcedMember>,
+    /// Their members of known strength.
+    pub(super) members: KnownMembers,
     /// Their factors in codes.
     pub(super) codes: Vec<BuildingCodes>,
     /// Where those with a plan stand on the site; `None` stands in a row.
@@ -61,7 +61,7 @@ pub(super) fn read_all(
         );
         return None;
     }
-    let (mut members, mut of_codes, mut at) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut members, mut of_codes, mut at) = (KnownMembers::default(), Vec::new(), Vec::new());
     let mut dampers = Vec::new();
     let buildings = entries
         .iter()
@@ -118,7 +118,7 @@ fn read(
     field: &Field<'_>,
     index: usize,
     files: &Files,
-    members: &mut Vec<ReinforcedMember>,
+    members: &mut KnownMembers,
     at: &mut Option<PlanPoint>,
 ) -> Option<Building> {
     let noted = reader.count_faults();
@@ -289,7 +289,8 @@ fn read(
                 .then(|| reinforced::members_in_plan(index, &firm, &bars_in_plan));
             let here = sound_members(reader, &view, here);
             if let Structure::Tiers(tiers) = &mut building.structure {
-                let (frames, here) = (&mut tiers.frames, here.as_deref());
+                let here = here.as_ref().map(|here| &here.reinforced[..]);
+                let frames = &mut tiers.frames;
                 if kind == Kind::FramesInPlan {
                     plan_frames::read_shear_failure(reader, &view, frames, here);
                 } else if let Some(frame) = &mut tiers.space_frame
@@ -300,7 +301,7 @@ fn read(
                     frame.shear = read.unwrap_or_default();
                 }
             }
-            members.extend(here.unwrap_or_default());
+            members.append(here.unwrap_or_default());
             None
         }
         Structure::Given(_) => None,
@@ -310,14 +311,15 @@ fn read(
             let here = (reader.count_faults() == noted && is_sound(&firm))
                 .then(|| reinforced::members(index, &firm, &reinforced));
             let here = sound_members(reader, &view, here);
+            let laid = here.as_ref().map(|here| &here.reinforced[..]);
             let hinges = stated
                 .as_ref()
-                .and_then(|field| hinges::read_frame(reader, field, frame, here.as_deref()));
+                .and_then(|field| hinges::read_frame(reader, field, frame, laid));
             let hinges = joint::with_hinge(reader, &view, frame, hinges);
             let failing = reader
                 .get(&view, "shear_failure")
-                .map(|field| shear_failure::read(reader, &field, frame, "", here.as_deref()));
-            members.extend(here.unwrap_or_default());
+                .map(|field| shear_failure::read(reader, &field, frame, "", laid));
+            members.append(here.unwrap_or_default());
             match failing.flatten() {
                 Some(shear) => {
                     let mut all = match hinges {
@@ -339,12 +341,12 @@ fn read(
     Some(building)
 }
 
-/// Reinforced members of a building; notes why they are not known.
+/// Members of known strength of a building; notes why they are not known.
 fn sound_members(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    found: Option<Result<Vec<ReinforcedMember>, String>>,
-) -> Option<Vec<ReinforcedMember>> {
+    found: Option<Result<KnownMembers, String>>,
+) -> Option<KnownMembers> {
     match found? {
         Ok(members) => Some(members),
         Err(problem) => {

@@ -1,39 +1,53 @@
 //! `[output] capacity`: which members are compared with their capacity, and by which rules.
 
-use jostle::model::{MemberCapacity, RotationLimits, RuleCapacity};
+use jostle::model::{CapacityLine, MemberCapacity, RotationLimits, RuleCapacity};
 use jostle::{Building, MemberRequest, Model, Structure};
 use jostle_section::Section;
-use jostle_section::capacity::{Interaction, ObliqueInteraction, RatedMember, ShearRule};
+use jostle_section::capacity::{
+    CapacityRule, Interaction, ObliqueInteraction, RatedMember, ShearRule,
+};
 use jostle_section::formula::Member;
 
-use super::reinforced::ReinforcedMember;
+use super::reinforced::{KnownMembers, ProfiledMember, ReinforcedMember};
 use crate::reader::{Field, Reader, View};
 use crate::tree::Value;
 
 /// Rules for demands over capacities, as written.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum CapacityRequest {
-    /// Nothing written: all rules, if forces of members are asked for and their bars and ties are known.
+    /// Nothing written: all rules, if forces of members are asked for and their strength is known.
     #[default]
     WhereKnown,
     /// None.
     Off,
     /// These, the first governs; forces of members are then asked for as well.
-    Rules(Vec<ShearRule>),
+    Rules(Vec<CapacityRule>),
 }
 
 impl CapacityRequest {
-    /// The rules, that of the country of the steel first where all are asked for.
+    /// The rules for reinforced members, that of the country of the steel first where all are asked for.
     fn rules(&self, members: &[ReinforcedMember]) -> Vec<ShearRule> {
         match self {
             Self::Off => Vec::new(),
-            Self::Rules(rules) if rules[..] != ShearRule::ALL => rules.clone(),
+            Self::Rules(rules) if rules[..] != CapacityRule::ALL => {
+                let rules = rules.iter();
+                rules.filter_map(|rule| rule.reinforced()).collect()
+            }
             Self::WhereKnown | Self::Rules(_) => {
                 let home = members.iter().find_map(|member| member.home_rule);
                 let others = ShearRule::ALL.into_iter();
                 let others = others.filter(|rule| Some(*rule) != home);
                 home.into_iter().chain(others).collect()
             }
+        }
+    }
+
+    /// Whether steel profiles are rated.
+    fn rates_profiles(&self) -> bool {
+        match self {
+            Self::Off => false,
+            Self::WhereKnown => true,
+            Self::Rules(rules) => rules.contains(&CapacityRule::Aisc360),
         }
     }
 }
@@ -45,13 +59,13 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> CapacityRequest 
     };
     let mut rule = |field: &Field<'_>| {
         let name = reader.choice(field, crate::keys::CAPACITY_RULES, &[])?;
-        ShearRule::from_name(name)
+        CapacityRule::from_name(name)
     };
     match (&field.node.value, field.entries()) {
-        (Value::Flag(true), _) => CapacityRequest::Rules(ShearRule::ALL.to_vec()),
+        (Value::Flag(true), _) => CapacityRequest::Rules(CapacityRule::ALL.to_vec()),
         (Value::Flag(false), _) => CapacityRequest::Off,
         (_, Some(entries)) => {
-            let mut rules: Vec<ShearRule> = Vec::new();
+            let mut rules: Vec<CapacityRule> = Vec::new();
             for found in entries.iter().filter_map(&mut rule) {
                 if !rules.contains(&found) {
                     rules.push(found);
@@ -77,17 +91,25 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> CapacityRequest 
     }
 }
 
-/// Notes rules for members without bars or ties; `None` for members after faults elsewhere.
+/// Notes rules for members of unknown strength; `None` for members after faults elsewhere.
 pub(super) fn check(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     request: &CapacityRequest,
-    members: Option<&[ReinforcedMember]>,
+    members: Option<&KnownMembers>,
 ) {
-    let (CapacityRequest::Rules(_), Some(members)) = (request, members) else {
+    let (
+        CapacityRequest::Rules(_),
+        Some(KnownMembers {
+            reinforced: members,
+            profiled,
+        }),
+    ) = (request, members)
+    else {
         return;
     };
-    if members.iter().all(|member| member.section.ties.is_none()) {
+    let are_profiles_rated = request.rates_profiles() && !profiled.is_empty();
+    if !are_profiles_rated && members.iter().all(|member| member.section.ties.is_none()) {
         let missing = if members.is_empty() {
             "bars and ties"
         } else {
@@ -97,23 +119,30 @@ pub(super) fn check(
             field,
             format!("needs members with {missing}: their capacity is unknown"),
         ) = Some(
-            "add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam"
+            "add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam; or yield_strength = \"355 MPa\" to a profile"
                 .into(),
         );
     }
 }
 
 /// Fills in the capacities of members if forces of members are asked for.
-pub(crate) fn fill(model: &mut Model, request: &CapacityRequest, members: &[ReinforcedMember]) {
+pub(crate) fn fill(model: &mut Model, request: &CapacityRequest, members: &KnownMembers) {
     if let CapacityRequest::Rules(rules) = request {
         model.analysis.members.envelopes |= !rules.is_empty();
     }
-    let capacities = capacities(model, request, members);
+    let KnownMembers {
+        reinforced: members,
+        profiled,
+    } = members;
+    let mut capacities = capacities(model, request, members);
     let joints = if capacities.is_empty() {
         Vec::new()
     } else {
         super::joint_capacity::joints(model, &request.rules(members), members)
     };
+    if request.rates_profiles() {
+        capacities.extend(profiled.iter().map(|member| of_profile(model, member)));
+    }
     let asked: &mut MemberRequest = &mut model.analysis.members;
     asked.joints = joints;
     asked.capacities = if asked.envelopes {
@@ -174,6 +203,24 @@ fn capacities(
         });
     }
     capacities
+}
+
+/// Capacity of a member of steel.
+fn of_profile(model: &Model, member: &ProfiledMember) -> MemberCapacity {
+    let building = &model.buildings[member.building];
+    let is_column = member.member == Member::Column;
+    let (length, bends_across) = (member.length, member.bends_across);
+    MemberCapacity {
+        member: format!("{}.{}", building.name, member.name),
+        compression_at_rest: match building.weight_is_in_axial_forces() {
+            true => 0.0,
+            false => member.compression,
+        },
+        follows_axial: is_column,
+        axial_failure_drift: CapacityLine::default(),
+        rotations: Vec::new(),
+        rules: vec![member.steel.capacity(member.member, length, bends_across)],
+    }
 }
 
 fn rated(member: &ReinforcedMember) -> RatedMember<'_> {

@@ -4,7 +4,7 @@ use jostle::{Building, MemberRequest};
 
 use super::capacity::{self, CapacityRequest};
 use super::floor_spectra::{self, FloorSpectraRequest};
-use super::reinforced::ReinforcedMember;
+use super::reinforced::KnownMembers;
 use crate::keys::{Section, UNIT_SYSTEMS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
@@ -12,11 +12,11 @@ use crate::shown::Units;
 use crate::tree::Value;
 
 /// Reads which forces of columns and beams, which spectra of floors and which capacities are asked for. `read`: buildings
-/// and their reinforced members; `None` after faults.
+/// and their members of known strength; `None` after faults.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    read: Option<(&[Building], &[ReinforcedMember])>,
+    read: Option<(&[Building], &KnownMembers)>,
 ) -> (MemberRequest, Option<FloorSpectraRequest>, CapacityRequest) {
     let Some(view) = reader.open(field, &[Section::Output]) else {
         return Default::default();

@@ -1,4 +1,4 @@
-//! Reinforcement of columns and beams.
+//! Columns and beams whose strength is known: their bars, or the yield strength of their profile.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,14 @@ use jostle::system::BuildingSystem;
 use jostle::{
     Building, Frame, FramePlace, PlanAxis, SpaceFrame, SpaceMember, SpacePlace, Structure,
 };
-use jostle_section::capacity::ShearRule;
+use jostle_section::capacity::{ShearRule, SteelMember};
 use jostle_section::formula::Member;
 use jostle_section::{
     BarsError, Concrete, Reinforcement, Section, SectionFault, Steel, StrengthLevel, Ties,
 };
 
 use super::places::{Layout, sections};
+use super::steel_profile;
 use crate::grade::ConcreteGrade;
 use crate::keys::{self, SECTION_CONCRETES, STEELS, STRENGTHS};
 use crate::quantity::Dimension;
@@ -56,20 +57,81 @@ pub struct ReinforcedMember {
     pub home_rule: Option<ShearRule>,
 }
 
-/// Sections of the columns and beams of a building, where they are reinforced.
+/// A column or beam of a steel profile whose yield strength is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProfiledMember {
+    /// Index of the building.
+    pub building: usize,
+    /// Column or beam.
+    pub member: Member,
+    /// Its name within the building, such as `column.1.2`.
+    pub name: String,
+    /// Its profile and steel.
+    pub steel: SteelMember,
+    /// Axial compression \[N\].
+    pub compression: f64,
+    /// Length between the axes \[m\].
+    pub length: f64,
+    /// Whether it bends in two planes.
+    pub bends_across: bool,
+}
+
+/// Members of known strength.
+#[derive(Clone, Debug, Default)]
+pub struct KnownMembers {
+    /// Those with bars.
+    pub reinforced: Vec<ReinforcedMember>,
+    /// Those of steel profiles.
+    pub profiled: Vec<ProfiledMember>,
+}
+
+impl KnownMembers {
+    /// Adds those of another building.
+    pub(super) fn append(&mut self, mut others: Self) {
+        self.reinforced.append(&mut others.reinforced);
+        self.profiled.append(&mut others.profiled);
+    }
+}
+
+/// Sections of the columns and beams of a building, where their strength is known.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reinforced {
-    /// By storey and line; `None` without bars.
+    /// By storey and line; `None` where the strength is unknown.
     pub(super) columns: Vec<Vec<Option<Laid>>>,
     /// By floor and bay.
     pub(super) beams: Vec<Vec<Option<Laid>>>,
 }
 
-/// A section with its bars.
+/// A section in a place of a frame.
 #[derive(Clone, Debug)]
 pub(super) struct Laid {
-    own: ReadSection,
+    known: KnownSection,
     axial: Axial,
+}
+
+/// A section of known strength.
+#[derive(Clone, Debug)]
+pub(super) enum KnownSection {
+    Bars(ReadSection),
+    Profile(SteelMember),
+}
+
+impl KnownSection {
+    /// With its bars, if it has bars.
+    pub(super) fn with_bars(&self) -> Option<&Section> {
+        match self {
+            Self::Bars(read) => Some(&read.section),
+            Self::Profile(_) => None,
+        }
+    }
+
+    /// Its size in the direction of bending \[m\].
+    fn depth(&self) -> f64 {
+        match self {
+            Self::Bars(read) => read.section.depth,
+            Self::Profile(steel) => steel.profile.depth(steel.axis),
+        }
+    }
 }
 
 /// Sections of the columns and beams of a building with a plan, where they are reinforced.
@@ -78,7 +140,7 @@ pub(super) struct ReinforcedInPlan {
     /// Of every frame at lines of the plan.
     pub(super) frames: Vec<Reinforced>,
     /// Of a space frame.
-    pub(super) members: BTreeMap<SpacePlace, ReadSection>,
+    pub(super) members: BTreeMap<SpacePlace, KnownSection>,
 }
 
 /// Axial compression of a member.
@@ -142,6 +204,15 @@ fn read_one(
 ) -> Option<Laid> {
     // Its keys were checked where the size was read.
     let view = reader.reopen(field, sections(member))?;
+    if let Some(steel) = steel_profile::strength_of(reader, &view) {
+        return Some(Laid {
+            known: KnownSection::Profile(steel),
+            axial: match member {
+                Member::Column => Axial::FromGravity,
+                Member::Beam => Axial::Given(0.0),
+            },
+        });
+    }
     let axial = if member == Member::Column {
         match reader.get(&view, "axial_load") {
             Some(field) if field.as_text() != Some("from gravity") => {
@@ -167,7 +238,7 @@ fn read_one(
     };
     let read = read_section(reader, &view, size, of_building)?;
     Some(Laid {
-        own: read,
+        known: KnownSection::Bars(read),
         axial: axial?,
     })
 }
@@ -324,7 +395,7 @@ pub(super) fn understood<T>(
         .ok()
 }
 
-/// Every reinforced member of a sound frame, with its axial load.
+/// Every member of known strength of a sound frame, with its axial load.
 ///
 /// # Errors
 /// A text when columns take their load from gravity and the building cannot stand.
@@ -332,9 +403,9 @@ pub(super) fn members(
     index: usize,
     building: &Building,
     reinforced: &Reinforced,
-) -> Result<Vec<ReinforcedMember>, String> {
+) -> Result<KnownMembers, String> {
     let Structure::Frame(frame) = &building.structure else {
-        return Ok(Vec::new());
+        return Ok(KnownMembers::default());
     };
     let carried = if reinforced.asks_gravity() {
         column_loads(building)?
@@ -347,7 +418,7 @@ pub(super) fn members(
 
 /// Those of a frame whose axial forces do not count.
 pub(super) fn unloaded(frame: &Frame, reinforced: &Reinforced) -> Vec<ReinforcedMember> {
-    of_frame(0, "", frame, reinforced, |_, _| 0.0)
+    of_frame(0, "", frame, reinforced, |_, _| 0.0).reinforced
 }
 
 /// The same of a sound building with a plan: of its frames at lines of the plan, and of its space frame.
@@ -358,9 +429,9 @@ pub(super) fn members_in_plan(
     index: usize,
     building: &Building,
     reinforced: &ReinforcedInPlan,
-) -> Result<Vec<ReinforcedMember>, String> {
+) -> Result<KnownMembers, String> {
     let Structure::Tiers(tiers) = &building.structure else {
-        return Ok(Vec::new());
+        return Ok(KnownMembers::default());
     };
     let frames = reinforced.frames.iter();
     let asks_gravity = frames.clone().any(Reinforced::asks_gravity);
@@ -371,21 +442,41 @@ pub(super) fn members_in_plan(
         BTreeMap::new()
     };
     let load = |name: &str| carried.get(name).copied().unwrap_or(0.0);
-    let mut members: Vec<ReinforcedMember> = Vec::new();
+    let mut members = KnownMembers::default();
     for (frame, reinforcement) in tiers.frames.iter().zip(frames) {
         let name = format!("{}.", frame.name);
         let load = |name: &str, _: FramePlace| load(name);
-        members.extend(of_frame(index, &name, &frame.frame, reinforcement, load));
+        members.append(of_frame(index, &name, &frame.frame, reinforcement, load));
     }
     if let Some(frame) = &tiers.space_frame {
         let places = frame.members.iter();
         let laid = places.filter_map(|place| Some((place, reinforced.members.get(&place.place)?)));
-        members.extend(laid.map(|(member, read)| {
+        for (member, known) in laid {
             let name = member.place.to_string();
             let compression = load(&name);
             let heights = &tiers.storey_heights;
-            in_space(index, name, frame, (member, read), heights, compression)
-        }));
+            match known {
+                KnownSection::Bars(read) => {
+                    let found = in_space(index, name, frame, (member, read), heights, compression);
+                    members.reinforced.push(found);
+                }
+                KnownSection::Profile(steel) => {
+                    let is_column = matches!(member.place, SpacePlace::Column { .. });
+                    members.profiled.push(ProfiledMember {
+                        building: index,
+                        member: match is_column {
+                            true => Member::Column,
+                            false => Member::Beam,
+                        },
+                        name,
+                        steel: *steel,
+                        compression: if is_column { compression } else { 0.0 },
+                        length: frame.length(member.place, heights),
+                        bends_across: is_column,
+                    });
+                }
+            }
+        }
     }
     Ok(members)
 }
@@ -460,7 +551,7 @@ impl Reinforced {
     }
 }
 
-/// The reinforced members of a plane frame. `prefix`: what stands before their names; `load`: compression of a column by name and by
+/// The members of known strength of a plane frame. `prefix`: what stands before their names; `load`: compression of a column by name and by
 /// storey and line, where it follows from gravity \[N\].
 fn of_frame(
     index: usize,
@@ -468,20 +559,20 @@ fn of_frame(
     frame: &Frame,
     reinforced: &Reinforced,
     load: impl Fn(&str, FramePlace) -> f64,
-) -> Vec<ReinforcedMember> {
+) -> KnownMembers {
     // Depths of what frames into a member, where it is known.
     let depth = |list: &[Vec<Option<Laid>>], row: Option<usize>, place: Option<usize>| {
         let laid = row
             .zip(place)
             .and_then(|(row, place)| list.get(row)?.get(place)?.as_ref());
-        laid.map_or(0.0, |laid| laid.own.section.depth)
+        laid.map_or(0.0, |laid| laid.known.depth())
     };
     let deeper_beam = |floor: Option<usize>, line: usize| {
         let [left, right] =
             [line.checked_sub(1), Some(line)].map(|bay| depth(&reinforced.beams, floor, bay));
         left.max(right)
     };
-    let mut members = Vec::new();
+    let mut members = KnownMembers::default();
     let columns = frame.all_columns().map(|column| (Member::Column, column));
     let beams = frame.all_beams().map(|beam| (Member::Beam, beam));
     for (member, ([storey, place], section)) in columns.chain(beams) {
@@ -490,7 +581,7 @@ fn of_frame(
             Member::Beam => &reinforced.beams,
         };
         let laid = list.get(storey).and_then(|row| row.get(place)?.as_ref());
-        let Some(Laid { own: read, axial }) = laid else {
+        let Some(Laid { known, axial }) = laid else {
             continue;
         };
         let (floor, at) = (storey + 1, place + 1);
@@ -513,7 +604,22 @@ fn of_frame(
                 (frame.spans[place], 0.0, left + right)
             }
         };
-        members.push(ReinforcedMember {
+        let read = match known {
+            KnownSection::Bars(read) => read,
+            KnownSection::Profile(steel) => {
+                members.profiled.push(ProfiledMember {
+                    building: index,
+                    member,
+                    name,
+                    steel: *steel,
+                    compression,
+                    length,
+                    bends_across: false,
+                });
+                continue;
+            }
+        };
+        members.reinforced.push(ReinforcedMember {
             building: index,
             member,
             floor,

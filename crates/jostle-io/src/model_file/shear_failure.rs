@@ -12,7 +12,7 @@ use jostle_section::capacity::{RatedMember, ShearRule};
 use super::building::per_storey;
 use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
-use crate::keys::{AXIAL_FIRST, CAPACITY_RULES, SHEAR_ENDS, Section};
+use crate::keys::{AXIAL_FIRST, SHEAR_ENDS, SHEAR_RULES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
@@ -185,7 +185,7 @@ fn springs_of(
     }
     let losses = match (rule, strength) {
         (Some(field), _) => {
-            let name = reader.choice(&field, CAPACITY_RULES, &[])?;
+            let name = reader.choice(&field, SHEAR_RULES, &[])?;
             let slope = match slope {
                 Some(read) => Some(read?),
                 None => None,

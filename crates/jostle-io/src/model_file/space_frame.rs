@@ -15,7 +15,7 @@ use super::frame::{
 };
 use super::places::{range, read_omit};
 use super::plan::pair;
-use super::reinforced::{self, ReadSection};
+use super::reinforced::{self, KnownSection};
 use super::section::{self, read_modulus, read_modulus_beside_bars};
 use super::slab::{self, OnSlab};
 use super::space_hinges::{Moments, SpaceHinges};
@@ -161,7 +161,7 @@ impl Sort {
 /// A space frame, the sections of its members that have bars, and the masses of its panels on floors from 0, each at a point of the site.
 pub(super) struct ReadFrame {
     pub(super) frame: SpaceFrame,
-    pub(super) sections: BTreeMap<SpacePlace, ReadSection>,
+    pub(super) sections: BTreeMap<SpacePlace, KnownSection>,
     pub(super) panels: Vec<(usize, (f64, PlanPoint))>,
 }
 
@@ -227,7 +227,7 @@ pub(super) fn read(
             members.push(SpaceMember::elastic(place, section));
             own_moments.push(member.moments);
             slabs.extend(member.slab.map(|slab| (place, slab)));
-            sections.extend(member.reinforced.map(|section| (place, section)));
+            sections.extend(member.known.map(|section| (place, section)));
         }
     }
     let [lines_x, lines_y] = grid.lines.clone();
@@ -369,7 +369,7 @@ fn add_fibres(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     hinges: &SpaceHinges<'_>,
-    sections: &BTreeMap<SpacePlace, ReadSection>,
+    sections: &BTreeMap<SpacePlace, KnownSection>,
     frame: &mut SpaceFrame,
     storey_heights: &[f64],
 ) {
@@ -388,7 +388,7 @@ fn add_fibres(
                 continue;
             };
             let height = frame.clear_length(place, storey_heights);
-            let section = sections.get(&place).map(|own| &own.section);
+            let section = sections.get(&place).and_then(KnownSection::with_bars);
             match asked.of_column(&member.section, section, height) {
                 Ok(column) => {
                     frame.fibres.insert(place, column);
@@ -404,17 +404,21 @@ fn add_fibres(
     let Some(asked) = &hinges.fibres else {
         return;
     };
-    if columns.iter().any(|place| !sections.contains_key(place)) {
-        let with_bars = |place| sections.contains_key(place);
-        fibre_hinges::say_without_bars(reader, &field, !columns.iter().any(with_bars));
+    let laid = |place: &SpacePlace| sections.get(place).and_then(KnownSection::with_bars);
+    if columns.iter().any(|place| laid(place).is_none()) {
+        let none = columns.iter().all(|place| laid(place).is_none());
+        fibre_hinges::say_without_bars(reader, &field, none);
         return;
     }
     for place in columns
         .into_iter()
         .filter(|column| asked.stand_in(column.storey()))
     {
+        let Some(section) = laid(&place) else {
+            continue;
+        };
         let height = frame.clear_length(place, storey_heights);
-        match asked.of_column(&sections[&place].section, height, true) {
+        match asked.of_column(section, height, true) {
             Ok(column) => {
                 frame.fibres.insert(place, column);
             }
@@ -466,8 +470,8 @@ pub(super) struct Member<'n> {
     pub(super) section: SpaceSection,
     /// Slab that bends with a beam.
     pub(super) slab: Option<OnSlab>,
-    /// Its section with bars, if it has bars.
-    pub(super) reinforced: Option<ReadSection>,
+    /// Its section, if its strength is known.
+    pub(super) known: Option<KnownSection>,
     /// Moments of its own.
     pub(super) moments: Option<Moments<'n>>,
 }
@@ -519,12 +523,15 @@ fn read_sort<'n>(
             None
         } else {
             let section = read_section(reader, &entry_view, sort, material);
-            let reinforced = read_bars(reader, view, &entry_view, sort);
+            let known = match steel_profile::strength_of(reader, &entry_view) {
+                Some(steel) => Some(KnownSection::Profile(steel)),
+                None => read_bars(reader, view, &entry_view, sort).map(KnownSection::Bars),
+            };
             match section {
                 Some((section, slab)) => Some(Member {
                     section,
                     slab,
-                    reinforced,
+                    known,
                     moments,
                 }),
                 None => continue,
@@ -565,7 +572,7 @@ fn read_bars(
     building: &View<'_>,
     view: &View<'_>,
     sort: Sort,
-) -> Option<ReadSection> {
+) -> Option<reinforced::ReadSection> {
     // Faults are noted where the modulus is read.
     let concrete = reader
         .get(building, "concrete")

@@ -237,7 +237,7 @@ fn read<'n>(
     let member = Member {
         section,
         slab: None,
-        reinforced: None,
+        known: None,
         moments: Some(moments),
     };
     if along == PlanAxis::Y {

@@ -1,6 +1,7 @@
 //! Columns and beams of rolled or welded steel: `profile`.
 
 use jostle::{Section, SpaceSection};
+use jostle_section::capacity;
 use jostle_section::{Axis, ISection, Profile, STEEL_DENSITY, STEEL_MODULUS};
 
 use super::section::Material;
@@ -93,6 +94,30 @@ pub(super) fn of_brace(
         profile,
         axis,
         modulus,
+    })
+}
+
+/// Profile and yield strength of a column or beam; `None` without a strength. Faults of other keys are noted where the section is read.
+pub(super) fn strength_of(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+) -> Option<capacity::SteelMember> {
+    let field = reader.get(view, "yield_strength")?;
+    let Some(profile) = reader.get(view, "profile") else {
+        *reader.bad(&field, "is for a profile") =
+            Some("add profile = \"HEB300\", or leave it out; steel is the steel of bars".into());
+        return None;
+    };
+    let yield_strength = reader.positive(&field, Dimension::Stress)?;
+    reader.quietly(|reader| {
+        let axis = axis_of(reader, view)?.unwrap_or(Axis::Strong);
+        let (profile, modulus) = named_or_sized(reader, &profile)?;
+        Some(capacity::SteelMember {
+            profile,
+            axis,
+            yield_strength,
+            modulus,
+        })
     })
 }
 

@@ -45,7 +45,7 @@ read = { skip = 0 }
 match = { spectrum = { code = "gb50011" } }
 [[building]]
 column = { EI = 1, mass = 1 }
-beam = { width = 1, depth = 1, profile = "IPE300", axis = "weak", slab = { depth = 0.1, width = 1, spacing = 1, sides = 1 } }
+beam = { width = 1, depth = 1, profile = "IPE300", axis = "weak", yield_strength = 1, slab = { depth = 0.1, width = 1, spacing = 1, sides = 1 } }
 stiffness_factor = { column = 1 }
 axial = { columns = "rigid" }
 shear = { columns = "flexible" }
@@ -204,14 +204,14 @@ mass = 1
 elastic_modulus = 3e10
 lines_x = [0, 6]
 lines_y = [0, 5]
-column = { size = [1, 1] }
-beam_x = { width = 1, depth = 1 }
+column = [{ size = [1, 1] }, { profile = "HEB300", axis = "weak", yield_strength = 1 }]
+beam_x = [{ width = 1, depth = 1 }, { profile = "IPE400", axis = "weak", yield_strength = 1 }]
 beam_y = { width = 1, depth = 1 }
 hinges = { rule = "surface", length = 1, surface = { axial = [-1, 0, 1], moment = [0, 1, 0], across = [0, 1, 0] } }
 [[building]]
 kind = "frame"
 shear_failure = { strength = 1 }
-column = { profile = { depth = 1 }, axis = "weak" }
+column = { profile = { depth = 1 }, axis = "weak", yield_strength = 1 }
 brace = [{ EA = 1 }, { from = "0.1", to = "1.2", EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }, { profile = "HEB160", hinge = { rule = "buckling", curve = "c", yield_strength = 1 } }]
 infill = [{ modulus = 1, thickness = 1, width = "mainstone", opening = { length = 0.1 }, strength = { rule = "bertoldi" }, out_of_plane = { density = 1 }, backbone = { rule = "panagiotakos-fardis" } }, { force = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
 wall = [{ at = 1, length = 1, thickness = 1, hinge = { rule = "takeda", length = 1 } }, { line = 1, length = 1, EI = 1, shear_hinge = { rule = "bilinear", yield = 1, stiffness = 1 } }, { line = 1, length = 1, thickness = 1, bars = { edges = "8 d20", edge_length = 1, web = "16 d10" }, hinge = { rule = "fibre" } }]

@@ -97,7 +97,7 @@ fn all_rules_where_members_are_asked_for() {
     assert!(!beam.follows_axial && beam.compression_at_rest == 0.0);
     // Clear lengths exclude beams and columns.
     let of = |name: &str| {
-        let member = input.reinforced.iter().find(|member| {
+        let member = input.members.reinforced.iter().find(|member| {
             let label = match member.member {
                 jostle_section::formula::Member::Column => {
                     format!("column.{}.{}", member.place, member.floor)
@@ -183,4 +183,89 @@ fn mistakes_name_the_remedy() {
             assert!(error.contains(word), "{output}: {error}");
         }
     }
+}
+
+/// Two storeys of HEB 300 and IPE 400 of S355; `{}` stands for more keys of the building.
+const STEEL: &str = r#"
+[motion]
+kind = "sine"
+amplitude = "1 m/s2"
+period = "0.6 s"
+duration = "3 s"
+[[building]]
+name = "A"
+kind = "frame"
+storeys = 2
+storey_height = "3.5 m"
+spans = ["6 m", "5 m"]
+column = { profile = "HEB300", yield_strength = "355 MPa" }
+beam = { profile = "IPE400", yield_strength = "355 MPa" }
+beam_mass = "3600 kg/m"
+"#;
+
+/// HEB 300 of S355 in tables: A = 149.1 cm², W_pl,y = 1869 cm³, d t_w = 33 cm²; plastic strengths times f_y.
+#[test]
+fn steel_profiles_are_compared_by_aisc() {
+    for (asked, rated) in [
+        ("members = true", true),
+        ("capacity = true", true),
+        ("capacity = \"aisc360\"", true),
+        ("members = true\ncapacity = false", false),
+    ] {
+        let input = files::read(&format!("{STEEL}[output]\n{asked}\n"));
+        let input = input.unwrap_or_else(|error| panic!("{error}"));
+        let capacities = &input.model.analysis.members.capacities;
+        assert_eq!(capacities.len(), if rated { 10 } else { 0 }, "{asked}");
+        let Some(column) = capacities
+            .iter()
+            .find(|found| found.member == "A.column.2.1")
+        else {
+            continue;
+        };
+        let rule = &column.rules[0];
+        assert_eq!(rule.rule, "aisc360");
+        let [moment, tension] = [rule.bending[0].at(0.0), -rule.bending[0].points()[0][0]];
+        assert!((moment / (355e6 * 1869e-6) - 1.0).abs() < 1e-3, "{moment}");
+        assert!(
+            (tension / (355e6 * 149.1e-4) - 1.0).abs() < 1e-3,
+            "{tension}"
+        );
+        let shear = rule.shear.as_ref().expect("known").at(0.0, 1.0);
+        assert!(
+            (shear / (0.6 * 355e6 * 0.3 * 0.011) - 1.0).abs() < 1e-9,
+            "{shear}"
+        );
+        // The middle column carries its floors' share of 3600 kg/m, and half of what its feet rest on does not count.
+        assert!(
+            column.compression_at_rest > 3e5,
+            "{}",
+            column.compression_at_rest
+        );
+        let beam = capacities.iter().find(|found| found.member == "A.beam.1.1");
+        assert!(!beam.expect("rated").follows_axial);
+    }
+}
+
+#[test]
+fn yield_strengths_stand_beside_profiles() {
+    let said = |text: &str| files::read(text).expect_err("refused").to_string();
+    let plain = STEEL.replace(
+        "profile = \"HEB300\"",
+        "width = \"0.3 m\", depth = \"0.3 m\"",
+    );
+    let plain = plain.replace(
+        "kind = \"frame\"",
+        "kind = \"frame\"\nelastic_modulus = \"30 GPa\"",
+    );
+    let found = said(&plain);
+    assert!(
+        found.contains("column.yield_strength: is for a profile"),
+        "{found}"
+    );
+    let concrete = format!("{STEEL}[output]\ncapacity = \"gb50010\"\n");
+    let found = said(&concrete);
+    assert!(found.contains("their capacity is unknown"), "{found}");
+    let unasked = files::read(STEEL).expect("sound");
+    let text = unasked.unrated().expect("said");
+    assert!(text.contains("profiles with a yield strength"), "{text}");
 }

@@ -151,7 +151,7 @@ fn sections_take_materials_of_any_code() {
     let strengths = |concrete: &str, keys: &str, steel: &str| {
         let bars = format!(", bars = \"8 d20\", steel = \"{steel}\"{keys}");
         let input = sound(&frame(&format!("concrete = \"{concrete}\""), &bars));
-        let section = &input.reinforced[0].section;
+        let section = &input.members.reinforced[0].section;
         [section.concrete.strength, section.steel.yield_strength].map(|p| 1e-6 * p)
     };
     let near = |found: [f64; 2], due: [f64; 2]| {

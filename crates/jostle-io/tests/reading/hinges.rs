@@ -137,9 +137,10 @@ fn sections_give_the_moments() {
             negative > 1.5 * positive,
             "{method}: {positive} and {negative}"
         );
-        assert_eq!(input.reinforced.len(), 2 * 3 + 2 * 2);
+        assert_eq!(input.members.reinforced.len(), 2 * 3 + 2 * 2);
         // Equilibrium: the feet of the columns carry the whole weight.
         let weight: f64 = input
+            .members
             .reinforced
             .iter()
             .filter(|member| {
@@ -184,11 +185,12 @@ fn a_load_in_numbers_replaces_gravity() {
     let input = read(&frame(&bars, "", "")).unwrap_or_else(|error| panic!("{error}"));
     assert!(
         input
+            .members
             .reinforced
             .iter()
             .all(|member| member.compression == 800e3)
     );
-    let section = &input.reinforced[0].section;
+    let section = &input.members.reinforced[0].section;
     assert!(section.ties.is_some());
     assert!((section.concrete.strength / (20.1e6 / (1.0 - 1.645 * 0.172)) - 1.0).abs() < 1e-12);
 }

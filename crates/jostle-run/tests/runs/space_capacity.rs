@@ -381,7 +381,7 @@ fn ties_need_bars_and_beams_have_them() {
         .collect();
     assert_eq!(names, ["A.beam_x.1.1.1", "A.beam_x.1.1.2"]);
     // Half the width of a column at either end.
-    for beam in &input.reinforced {
+    for beam in &input.members.reinforced {
         assert!(
             (beam.clear_length - 5.5).abs() < 1e-12,
             "{}",

@@ -4,6 +4,7 @@
 
 mod acceptance;
 mod aci318;
+mod aisc360;
 mod asce41;
 mod axial_failure;
 mod en1998;
@@ -15,6 +16,7 @@ mod oblique;
 mod sezen_moehle;
 mod shear_failure;
 
+pub use aisc360::SteelMember;
 pub use axial_failure::drift_at_axial_failure;
 pub use interaction::Interaction;
 pub use joint::{JointStrength, RatedJoint};
@@ -159,6 +161,57 @@ impl ShearRule {
         match self {
             Self::Gb50010 => 1.0 / gb50010::bending_reduction(member, compression),
             _ => 1.0,
+        }
+    }
+}
+
+/// The rule for members of steel.
+const AISC_360: &str = "aisc360";
+
+/// A rule for the capacity of members.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CapacityRule {
+    /// Of reinforced concrete.
+    Reinforced(ShearRule),
+    /// AISC 360-16, of steel profiles.
+    Aisc360,
+}
+
+impl CapacityRule {
+    /// Every rule, in the order of the documentation.
+    pub const ALL: [Self; 6] = {
+        let [a, b, c, d, e] = ShearRule::ALL;
+        [
+            Self::Reinforced(a),
+            Self::Reinforced(b),
+            Self::Reinforced(c),
+            Self::Reinforced(d),
+            Self::Reinforced(e),
+            Self::Aisc360,
+        ]
+    };
+
+    /// The rule of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|rule| rule.name() == name)
+    }
+
+    /// As a model file spells it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Reinforced(rule) => rule.name(),
+            Self::Aisc360 => AISC_360,
+        }
+    }
+
+    /// The rule for reinforced concrete, if it is one.
+    #[must_use]
+    pub const fn reinforced(self) -> Option<ShearRule> {
+        match self {
+            Self::Reinforced(rule) => Some(rule),
+            Self::Aisc360 => None,
         }
     }
 }

@@ -74,6 +74,11 @@ impl Tube {
         })
     }
 
+    /// Widths of its walls over its depth and its width between corners, of one and a half walls each (AISC 360, B4.1b) \[m\].
+    pub(crate) fn flats(&self) -> [f64; 2] {
+        [self.depth, self.width].map(|side| side - 3.0 * self.wall)
+    }
+
     fn difference(&self, axis: Axis, of: fn(&Rounded) -> f64) -> f64 {
         let [outside, hole] = self.outside_and_hole(axis);
         of(&outside) - of(&hole)

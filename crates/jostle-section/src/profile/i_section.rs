@@ -38,6 +38,11 @@ impl ISection {
         })
     }
 
+    /// Height of the web between the fillets \[m\].
+    pub(crate) fn flat(&self) -> f64 {
+        self.clear() - 2.0 * self.radius
+    }
+
     fn clear(&self) -> f64 {
         self.depth - 2.0 * self.flange
     }

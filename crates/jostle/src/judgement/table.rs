@@ -336,7 +336,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.0, Remark), above(1.0, Note)],
         sources: &[JUDGEMENT],
-        remedy: "give the column its bars and ties (section) and use --members, which compares its shear and moment with its capacity; or compare them by hand",
+        remedy: "give the column its bars and ties (section), or its profile a yield_strength, and use --members, which compares its shear and moment with its capacity; or compare them by hand",
         measure: yielding::struck_unrated,
     },
     Check {

@@ -143,6 +143,7 @@ pub fn capacity_rule_title(key: &str) -> &str {
         "en1998-3" => "EN 1998-3",
         "asce41" => "ASCE 41",
         "aci318" => "ACI 318",
+        "aisc360" => "AISC 360",
         "sezen-moehle" => "Sezen and Moehle",
         other => other,
     }
