@@ -12,6 +12,7 @@ mod grounds;
 mod materials;
 mod motion;
 mod plan;
+mod plan_frames;
 mod remarks;
 mod script;
 mod soil;
