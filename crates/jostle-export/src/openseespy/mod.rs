@@ -159,23 +159,28 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "of space frames is not exported yet; leave it out to compare columns that keep their shear strength".into(),
             );
         }
-        let diagonals = match (&building.structure, in_space) {
-            (jostle::Structure::Frame(frame), _) => &frame.diagonals[..],
-            (_, Some(frame)) => &frame.diagonals,
-            _ => &[],
-        };
+        let mut diagonals: Vec<&jostle::Diagonal> = Vec::new();
+        match &building.structure {
+            jostle::Structure::Frame(frame) => diagonals.extend(&frame.diagonals),
+            jostle::Structure::Tiers(tiers) => {
+                diagonals.extend(in_space.iter().flat_map(|frame| &frame.diagonals));
+                let frames = tiers.frames.iter();
+                diagonals.extend(frames.flat_map(|plan_frame| &plan_frame.frame.diagonals));
+            }
+            _ => {}
+        }
         let crushed = |diagonal: &jostle::Diagonal| {
             let law = diagonal.hysteresis.as_ref();
             law.is_some_and(|law| law.backbone().open_side().is_some())
         };
-        if diagonals.iter().any(crushed) {
+        if diagonals.iter().copied().any(crushed) {
             refuse(
                 format!("building[{index}].infill"),
                 "has compression-only struts with a hinge, which OpenSees' Hysteretic cannot do; leave out hinge to compare with elastic struts".into(),
             );
         }
         let falls = |diagonal: &jostle::Diagonal| diagonal.across.is_some_and(|panel| panel.falls);
-        if diagonals.iter().any(falls) {
+        if diagonals.iter().copied().any(falls) {
             refuse(
                 format!("building[{index}].infill"),
                 "falls out by out_of_plane.remove, which is not exported yet; leave remove out to compare panels that stay".into(),

@@ -50,7 +50,7 @@ impl Script<'_> {
         let Structure::Tiers(tiers) = &model_building.structure else {
             return refuse("", "has no floors in plan that can be exported");
         };
-        if let Some((key, problem)) = plan_frames::refusal(tiers) {
+        if let Some((key, problem)) = plan_frames::refusal(tiers, &building.discretization) {
             return refuse(key, problem);
         }
         if model_building.base.isolation.is_none() && !model_building.base.is_fixed() {
