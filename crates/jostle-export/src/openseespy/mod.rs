@@ -191,10 +191,6 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             jostle::Structure::Frame(frame) if building.base.foundation.is_some() => {
                 (!frame.walls.is_empty(), !frame.rigid_zones.is_empty())
             }
-            jostle::Structure::Tiers(_) => (
-                in_space.is_some_and(|space| !space.walls.is_empty()),
-                in_space.is_some_and(|space| !space.rigid_zones.is_empty()),
-            ),
             _ => (false, false),
         };
         if walls {
@@ -208,6 +204,12 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             refuse(
                 format!("building[{index}].rigid_ends"),
                 "are rigid arms that turn with joints, which are exported only in plane frames without a foundation on soil; leave them out to compare frames between axes".into(),
+            );
+        }
+        if in_space.is_some_and(space_frame::has_hinges_on_arms) {
+            refuse(
+                format!("building[{index}].hinges"),
+                "stand at faces of walls or at rigid_ends, on rigid arms that turn with joints, which are exported only in plane frames; leave rigid_ends out, and keep members that meet walls elastic, to compare".into(),
             );
         }
         // Ductility is that of the hinges of columns.

@@ -88,6 +88,7 @@ impl Script<'_> {
             &mut self.carried,
             &mut self.space_joints,
             &mut self.space_members,
+            &mut self.rigid_ends,
             &mut self.upright,
             &mut self.upright_springs,
         ] {

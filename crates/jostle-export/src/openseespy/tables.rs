@@ -218,6 +218,12 @@ impl Script<'_> {
         )?;
         table(
             out,
+            "RIGID_ENDS",
+            "column or beam, lengths at its first and last end that turn with the joint as rigid bodies [m]",
+            &self.rigid_ends,
+        )?;
+        table(
+            out,
             "UPRIGHT",
             "joint of a frame at a line of a plan, x, y, z [m], node of the floor with which it moves, unit vector of the line, whether it is held along it, upwards and in rotation, mass along the line [kg] and rotary inertia [kg m2] of its own",
             &self.upright,

@@ -19,6 +19,7 @@ STIFF = 1e4
 HALVINGS = 30  # of a step that does not converge, at most
 MOST_PARTS = 10_000  # of such a step
 SETTLED = 1e-10  # displacement in the last iteration [m]
+OF_SHEAR = 1_000_000  # sections of members that shear are numbered from here on
 LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
 DIRECTIONS = {1: 1, 2: 2, 6: 3}
 IN_PLAN = bool(ARMS or JOINTS or UPRIGHT)  # nodes are floors seen from above: they move along x, across, and turn
@@ -213,19 +214,30 @@ def build_in_space():
     for kept, point in ARMS:
         ops.rigidLink("beam", kept, point)
     transforms = {}
+    rigid = {tag: lengths for tag, *lengths in RIGID_ENDS}
     for tag, first, last, bending, sideways, torsion, ea, ga, towards in COLUMNS_AND_BEAMS:
         length = math.dist(where[first], where[last])
         if ea is None:
             ea = STIFF * 12.0 * max(bending, sideways) / length**2
-        if towards not in transforms:
-            transforms[towards] = len(transforms) + 1
-            ops.geomTransf("Linear", transforms[towards], *towards)
+        start, end = rigid.get(tag, (0.0, 0.0))
+        axis = [(b - a) / length for a, b in zip(where[first], where[last])]
+        offsets = [start * part for part in axis] + [-end * part for part in axis]
+        key = (towards, *offsets)
+        if key not in transforms:
+            transforms[key] = len(transforms) + 1
+            ops.geomTransf("Linear", transforms[key], *towards, *(["-jntOffset", *offsets] if any(offsets) else []))
         # The local axis z lies in the plane of bending, so that bending there turns the section about y.
         if ga is None:
-            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, 1.0, torsion, bending, sideways, transforms[towards])
+            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, 1.0, torsion, bending, sideways, transforms[key])
+        elif any(offsets):
+            # ElasticTimoshenkoBeam takes no offsets. Two points integrate the flexibility of a straight member exactly.
+            along, across = ga
+            ops.section("Elastic", OF_SHEAR + tag, 1.0, ea, sideways, bending, 1.0, torsion, across / ea, along / ea)
+            ops.beamIntegration("Legendre", tag, OF_SHEAR + tag, 2)
+            ops.element("forceBeamColumn", tag, first, last, transforms[key], tag)
         else:
             along, across = ga
-            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[towards])
+            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[key])
     for foot in feet:
         # Held as by the ground, but free to move with the mat.
         ops.fix(foot, 0, 0, 1, 1, 1, 0)
