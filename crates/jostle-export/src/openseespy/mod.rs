@@ -12,6 +12,7 @@ mod grounds;
 mod materials;
 mod motion;
 mod plan;
+mod plan_frames;
 mod remarks;
 mod script;
 mod soil;
@@ -158,23 +159,28 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "of space frames is not exported yet; leave it out to compare columns that keep their shear strength".into(),
             );
         }
-        let diagonals = match (&building.structure, in_space) {
-            (jostle::Structure::Frame(frame), _) => &frame.diagonals[..],
-            (_, Some(frame)) => &frame.diagonals,
-            _ => &[],
-        };
+        let mut diagonals: Vec<&jostle::Diagonal> = Vec::new();
+        match &building.structure {
+            jostle::Structure::Frame(frame) => diagonals.extend(&frame.diagonals),
+            jostle::Structure::Tiers(tiers) => {
+                diagonals.extend(in_space.iter().flat_map(|frame| &frame.diagonals));
+                let frames = tiers.frames.iter();
+                diagonals.extend(frames.flat_map(|plan_frame| &plan_frame.frame.diagonals));
+            }
+            _ => {}
+        }
         let crushed = |diagonal: &jostle::Diagonal| {
             let law = diagonal.hysteresis.as_ref();
             law.is_some_and(|law| law.backbone().open_side().is_some())
         };
-        if diagonals.iter().any(crushed) {
+        if diagonals.iter().copied().any(crushed) {
             refuse(
                 format!("building[{index}].infill"),
                 "has compression-only struts with a hinge, which OpenSees' Hysteretic cannot do; leave out hinge to compare with elastic struts".into(),
             );
         }
         let falls = |diagonal: &jostle::Diagonal| diagonal.across.is_some_and(|panel| panel.falls);
-        if diagonals.iter().any(falls) {
+        if diagonals.iter().copied().any(falls) {
             refuse(
                 format!("building[{index}].infill"),
                 "falls out by out_of_plane.remove, which is not exported yet; leave remove out to compare panels that stay".into(),
@@ -185,10 +191,6 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             jostle::Structure::Frame(frame) if building.base.foundation.is_some() => {
                 (!frame.walls.is_empty(), !frame.rigid_zones.is_empty())
             }
-            jostle::Structure::Tiers(_) => (
-                in_space.is_some_and(|space| !space.walls.is_empty()),
-                in_space.is_some_and(|space| !space.rigid_zones.is_empty()),
-            ),
             _ => (false, false),
         };
         if walls {
@@ -202,6 +204,12 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             refuse(
                 format!("building[{index}].rigid_ends"),
                 "are rigid arms that turn with joints, which are exported only in plane frames without a foundation on soil; leave them out to compare frames between axes".into(),
+            );
+        }
+        if in_space.is_some_and(space_frame::has_hinges_on_arms) {
+            refuse(
+                format!("building[{index}].hinges"),
+                "stand at faces of walls or at rigid_ends, on rigid arms that turn with joints, which are exported only in plane frames; leave rigid_ends out, and keep members that meet walls elastic, to compare".into(),
             );
         }
         // Ductility is that of the hinges of columns.

@@ -13,14 +13,25 @@
 use std::fmt::Write;
 
 use jostle::interface::Port;
-use jostle::structure::Mat;
+use jostle::structure::{Mat, Node};
 use jostle::system::BuildingSystem;
 use jostle::{ModelFault, PlanPoint, ProportionalDamping, Structure, Tier, TierStorey};
 
+use super::plan_frames;
 use super::script::{Script, comment, python_bool, rounded, text};
 
 /// Directions of OpenSees: along x, across, rotation.
 const DIRECTIONS: [usize; 3] = [1, 2, 6];
+
+/// Mass of a floor, or those along x and across where they differ: columns between floors of a plane frame move by themselves along it.
+fn masses(floor: &Node) -> String {
+    let [x, y, _] = floor.inertia;
+    if x == y {
+        format!("{x:?}")
+    } else {
+        format!("({x:?}, {y:?})")
+    }
+}
 
 impl Script<'_> {
     /// Floors, storeys and P-Delta of a building in space.
@@ -39,11 +50,8 @@ impl Script<'_> {
         let Structure::Tiers(tiers) = &model_building.structure else {
             return refuse("", "has no floors in plan that can be exported");
         };
-        if !tiers.frames.is_empty() {
-            return refuse(
-                ".frame",
-                "frames at lines of a plan are not exported yet; give stiffness or [[building.element]] instead",
-            );
+        if let Some((key, problem)) = plan_frames::refusal(tiers, &building.discretization) {
+            return refuse(key, problem);
         }
         if model_building.base.isolation.is_none() && !model_building.base.is_fixed() {
             let key = match model_building.base.foundation {
@@ -80,6 +88,9 @@ impl Script<'_> {
             &mut self.carried,
             &mut self.space_joints,
             &mut self.space_members,
+            &mut self.rigid_ends,
+            &mut self.upright,
+            &mut self.upright_springs,
         ] {
             table.push_str(&title);
         }
@@ -97,8 +108,9 @@ impl Script<'_> {
             let [x, y] = floor.tier.centre.map(rounded);
             let _ = writeln!(
                 self.nodes,
-                "    ({tag}, {x:?}, {y:?}, {:?}, {:?}),",
-                floor.tier.mass, floor.tier.polar_mass
+                "    ({tag}, {x:?}, {y:?}, {}, {:?}),",
+                masses(&building.discretization.stick_model.nodes[*node]),
+                floor.tier.polar_mass
             );
             let height = rounded(building.discretization.stick_model.nodes[*node].y);
             let _ = writeln!(self.levels, "    ({tag}, {height:?}),");
@@ -159,6 +171,16 @@ impl Script<'_> {
                     ),
                 );
             }
+        }
+        if !tiers.frames.is_empty()
+            && let Err(problem) = self.add_plan_frames(index, building, tiers)
+        {
+            return refuse(
+                ".frame.hinges.rule",
+                &format!(
+                    "OpenSees has no rule \"{problem}\"; normal, bilinear, peak-oriented and pinched can be exported"
+                ),
+            );
         }
         let mut alpha = building.equations.alpha;
         if let Some((_, on_mat)) = isolated {

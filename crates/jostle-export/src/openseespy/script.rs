@@ -50,6 +50,11 @@ pub(super) struct Script<'a> {
     pub(super) space_joints: String,
     pub(super) space_members: String,
     pub(super) space_hinges: String,
+    /// Lengths at the ends of members of space frames that are rigid.
+    pub(super) rigid_ends: String,
+    /// Joints of frames at lines of a plan, and springs between them.
+    pub(super) upright: String,
+    pub(super) upright_springs: String,
     /// Heights of floors in plan.
     pub(super) levels: String,
 }
@@ -119,6 +124,9 @@ impl<'a> Script<'a> {
             space_joints: String::new(),
             space_members: String::new(),
             space_hinges: String::new(),
+            rigid_ends: String::new(),
+            upright: String::new(),
+            upright_springs: String::new(),
             levels: String::new(),
         };
         let mut faults = Vec::new();

@@ -29,6 +29,12 @@ pub(super) fn joints_of(building: &Building) -> usize {
     crossings * (tiers.floors.len() + 1) + 2 * hinged
 }
 
+/// Whether hinges or fibres of a member stand at the end of a rigid arm.
+pub(super) fn has_hinges_on_arms(frame: &SpaceFrame) -> bool {
+    let mut members = frame.members.iter();
+    members.any(|member| has_ends(frame, member) && frame.rigid_ends(member.place) != [0.0; 2])
+}
+
 /// Whether a member has ends of its own beside its joints.
 fn has_ends(frame: &SpaceFrame, member: &SpaceMember) -> bool {
     member.may_yield() || frame.fibres.contains_key(&member.place)
@@ -119,6 +125,11 @@ impl Script<'_> {
                 "    ({element}, {}, {}, {bending:?}, {sideways:?}, {:?}, {axial}, {shear}, ({:?}, {:?}, {:?})),",
                 ends[0], ends[1], section.torsional_rigidity, towards[0], towards[1], towards[2],
             );
+            let rigid = frame.rigid_ends(member.place);
+            if rigid != [0.0; 2] {
+                let [first, last] = rigid;
+                let _ = writeln!(self.rigid_ends, "    ({element}, {first:?}, {last:?}),");
+            }
         }
         self.add_carried(building, &tags);
         for diagonal in &frame.diagonals {

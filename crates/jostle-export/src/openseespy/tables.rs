@@ -216,6 +216,24 @@ impl Script<'_> {
             "end of a member, its joint, unit vector of the lines along x, springs: element, nodes, direction, material, the stiffness on which Rayleigh damping acts",
             &self.space_hinges,
         )?;
+        table(
+            out,
+            "RIGID_ENDS",
+            "column or beam, lengths at its first and last end that turn with the joint as rigid bodies [m]",
+            &self.rigid_ends,
+        )?;
+        table(
+            out,
+            "UPRIGHT",
+            "joint of a frame at a line of a plan, x, y, z [m], node of the floor with which it moves, unit vector of the line, whether it is held along it, upwards and in rotation, mass along the line [kg] and rotary inertia [kg m2] of its own",
+            &self.upright,
+        )?;
+        table(
+            out,
+            "UPRIGHT_SPRINGS",
+            "element, first and last joint of a frame at a line, direction, material, the stiffness on which Rayleigh damping acts, unit vector of the line",
+            &self.upright_springs,
+        )?;
         self.write_motion(out)?;
         for part in driver {
             writeln!(out, "\n\n{}", part.trim_end())?;

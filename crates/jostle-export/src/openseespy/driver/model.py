@@ -19,10 +19,11 @@ STIFF = 1e4
 HALVINGS = 30  # of a step that does not converge, at most
 MOST_PARTS = 10_000  # of such a step
 SETTLED = 1e-10  # displacement in the last iteration [m]
+OF_SHEAR = 1_000_000  # sections of members that shear are numbered from here on
 LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
 DIRECTIONS = {1: 1, 2: 2, 6: 3}
-IN_PLAN = bool(ARMS) or bool(JOINTS)  # nodes are floors seen from above: they move along x, across, and turn
-IN_SPACE = bool(JOINTS)  # columns and beams stand between the floors: x and y are the site, z is up
+IN_PLAN = bool(ARMS or JOINTS or UPRIGHT)  # nodes are floors seen from above: they move along x, across, and turn
+IN_SPACE = bool(JOINTS or UPRIGHT)  # columns and beams stand between the floors: x and y are the site, z is up
 TURN = 6 if IN_SPACE else 3  # rotation about the vertical axis, of floors in plan
 FIXED_ALONG = []  # nodes that are fixed along the row, which move with grounds that move apart
 NORMALS = {tag: (x, y) for tag, _, _, x, y, *_ in FACES}
@@ -151,6 +152,7 @@ def add_contacts():
         nodes = range(first, last + 1)
         springs = [row for row in (*SPRINGS, *LEVERED) if row[1] in nodes or row[2] in nodes]
         springs += [spring for *_, springs in HINGED_ENDS for spring in springs if spring[1] in nodes]
+        springs += [row[:-1] for row in UPRIGHT_SPRINGS if row[1] in nodes]
         by_tangent = [row[0] for row in springs if row[-1] == "tangent"]
         if by_tangent:
             ops.region(len(BUILDINGS) + number, "-eleOnly", *by_tangent, "-rayleigh", 0.0, 0.0, 0.0, building["beta"])
@@ -164,13 +166,14 @@ def build_in_space():
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     heights = dict(LEVELS)
     heights.update({point: heights[floor] for floor, point in ARMS})
-    free = max(tag for tag, *_ in NODES + JOINTS + HINGED_ENDS) + 1
+    free = max(tag for tag, *_ in NODES + JOINTS + HINGED_ENDS + UPRIGHT) + 1
     hold = len(MATERIALS) + 2
     ops.uniaxialMaterial("Elastic", hold, 1e6)
     for tag, x, y, mass, inertia in NODES:
         ops.node(tag, x, y, heights.get(tag, 0.0))
         if mass or inertia:
-            ops.mass(tag, mass, mass, 0.0, 0.0, 0.0, inertia)
+            along_x, across = mass if isinstance(mass, tuple) else (mass, mass)
+            ops.mass(tag, along_x, across, 0.0, 0.0, 0.0, inertia)
     places = {tag: (x, y) for tag, x, y, *_ in NODES}
     for number, (floor, z) in enumerate(LEVELS):
         ops.node(free + number, *places[floor], z)
@@ -191,8 +194,13 @@ def build_in_space():
                 feet.append(tag)
     for tag, *_ in SUPPORTS:
         ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    add_upright(where, tied, free + len(LEVELS), hold)
+    own = {tag: (mass * abs(c), mass * abs(s), turning * s * s, turning * c * c) for tag, *_, (c, s), _, mass, turning in UPRIGHT}
     for tag, mass, _ in CARRIED:
-        ops.mass(tag, 0.0, 0.0, mass, 0.0, 0.0, 0.0)
+        along_x, across, *turning = own.pop(tag, (0.0, 0.0, 0.0, 0.0))
+        ops.mass(tag, along_x, across, mass, *turning, 0.0)
+    for tag, (along_x, across, *turning) in own.items():
+        ops.mass(tag, along_x, across, 0.0, *turning, 0.0)
     floors = {tag: floor for tag, *_, floor in JOINTS}
     for tag, joint, *_ in HINGED_ENDS:
         where[tag] = where[joint]
@@ -206,19 +214,30 @@ def build_in_space():
     for kept, point in ARMS:
         ops.rigidLink("beam", kept, point)
     transforms = {}
+    rigid = {tag: lengths for tag, *lengths in RIGID_ENDS}
     for tag, first, last, bending, sideways, torsion, ea, ga, towards in COLUMNS_AND_BEAMS:
         length = math.dist(where[first], where[last])
         if ea is None:
             ea = STIFF * 12.0 * max(bending, sideways) / length**2
-        if towards not in transforms:
-            transforms[towards] = len(transforms) + 1
-            ops.geomTransf("Linear", transforms[towards], *towards)
+        start, end = rigid.get(tag, (0.0, 0.0))
+        axis = [(b - a) / length for a, b in zip(where[first], where[last])]
+        offsets = [start * part for part in axis] + [-end * part for part in axis]
+        key = (towards, *offsets)
+        if key not in transforms:
+            transforms[key] = len(transforms) + 1
+            ops.geomTransf("Linear", transforms[key], *towards, *(["-jntOffset", *offsets] if any(offsets) else []))
         # The local axis z lies in the plane of bending, so that bending there turns the section about y.
         if ga is None:
-            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, 1.0, torsion, bending, sideways, transforms[towards])
+            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, 1.0, torsion, bending, sideways, transforms[key])
+        elif any(offsets):
+            # ElasticTimoshenkoBeam takes no offsets. Two points integrate the flexibility of a straight member exactly.
+            along, across = ga
+            ops.section("Elastic", OF_SHEAR + tag, 1.0, ea, sideways, bending, 1.0, torsion, across / ea, along / ea)
+            ops.beamIntegration("Legendre", tag, OF_SHEAR + tag, 2)
+            ops.element("forceBeamColumn", tag, first, last, transforms[key], tag)
         else:
             along, across = ga
-            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[towards])
+            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[key])
     for foot in feet:
         # Held as by the ground, but free to move with the mat.
         ops.fix(foot, 0, 0, 1, 1, 1, 0)
@@ -228,6 +247,9 @@ def build_in_space():
         for tag, first, last, direction, material, damped in springs:
             extra = ["-doRayleigh", 1] if damped else []
             ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, *extra, "-orient", x, y, 0.0, -y, x, 0.0)
+    for tag, first, last, direction, material, damped, (x, y) in UPRIGHT_SPRINGS:
+        extra = ["-doRayleigh", 1] if damped else []
+        ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, *extra, "-orient", x, y, 0.0, -y, x, 0.0)
     for tag, first, last, springs, damped in SPRINGS:
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []
@@ -236,6 +258,29 @@ def build_in_space():
     add_sliders()
     add_fibres()
     add_contacts()
+
+
+def add_upright(where, tied, free, hold):
+    """Joints of frames at lines of a plan. Nothing turns them across their frame, so a soft spring holds them there."""
+    number = 0
+    for tag, x, y, z, floor, (c, s), (along, rise, turn), *_ in UPRIGHT:
+        where[tag] = (x, y, z)
+        ops.node(tag, x, y, z)
+        if floor is not None:
+            tied.setdefault(floor, []).append(tag)
+            held = [0, 0, rise, turn, turn, 0]
+        elif along:
+            held = [1, 1, rise, turn, turn, 1]
+        else:
+            # Between floors: it moves along its line, which is along x or across.
+            held = [int(abs(c) < 0.5), int(abs(s) < 0.5), rise, turn, turn, 1]
+        if any(held):
+            ops.fix(tag, *held)
+        if not turn:
+            ops.node(free + number, x, y, z)
+            ops.fix(free + number, 1, 1, 1, 1, 1, 1)
+            ops.element("zeroLength", 11_000_000 + number, free + number, tag, "-mat", hold, "-dir", 4, "-orient", c, s, 0.0, -s, c, 0.0)
+            number += 1
 
 
 def orientation(tag):

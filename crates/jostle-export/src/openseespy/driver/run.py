@@ -382,6 +382,7 @@ def main():
     used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
     used += [row[3] for row in (*LEVERED, *DIAGONALS)]
     used += [material for *_, springs in HINGED_ENDS for *_, material, _ in springs]
+    used += [row[4] for row in UPRIGHT_SPRINGS]
     yields = bool(SLIDERS or FIBRE_ENDS) or any(MATERIALS[material - 1][0] != "Elastic" for material in used)
     parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")
     parser.add_argument("--uniform", type=float, metavar="DT", help="one step size throughout [s]")

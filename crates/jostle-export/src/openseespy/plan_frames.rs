@@ -1,0 +1,378 @@
+//! Frames at lines of a plan: plane frames that stand upright in a model in space, whose joints move with the floors.
+//!
+//! A joint rises and turns in the plane of its frame by itself. Members have no stiffness across this plane and none in torsion, so a soft
+//! spring that keeps joints from turning across it has no force.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use jostle::linear::Row;
+use jostle::structure::{Discretization, Element, Hinge, Member, StickModel, Support, Turn};
+use jostle::system::BuildingSystem;
+use jostle::{PlanFrame, ProportionalDamping, Tiers};
+
+use super::fibres::FibreEnd;
+use super::script::{Script, python_damping, rounded};
+use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
+
+/// Stiffness of what stands for a rigid connection, in units of the stiffest member \[–\].
+const STIFF: f64 = 1e6;
+
+/// Directions of OpenSees, along a line, upwards and about the axis across both, of the displacements in the plane of a frame.
+const DIRECTIONS: [usize; COMPONENTS] = [1, 3, 5];
+
+/// What of the frames of a building cannot be exported: its key, and why.
+pub(super) fn refusal(
+    tiers: &Tiers,
+    discretization: &Discretization,
+) -> Option<(&'static str, &'static str)> {
+    let stick_model = &discretization.stick_model;
+    let is_diagonal = |row: &Row| {
+        let mut diagonals = discretization.diagonals.iter();
+        diagonals.any(|diagonal| diagonal.elongation == *row)
+    };
+    let others = stick_model.elements.iter().any(|element| match element {
+        Element::Spring { row, .. } => {
+            let mut nodes = row.entries().iter().map(|(place, _)| place / COMPONENTS);
+            nodes.any(|node| stands_in_frame(stick_model, node)) && !is_diagonal(row)
+        }
+        Element::Matrix { .. } => false,
+    });
+    let compressed = |member: &Member| member.compression != 0.0;
+    let mut members = stick_model.members.iter();
+    if !tiers.frames.is_empty() && (others || members.any(compressed)) {
+        return Some((
+            ".frame",
+            "has springs or P-Delta of single columns, which are not exported yet for frames at lines of a plan; leave them out to compare",
+        ));
+    }
+    let any = |test: fn(&PlanFrame) -> bool| tiers.frames.iter().any(test);
+    if any(|frame| frame.hinges.shear.iter().flatten().next().is_some()) {
+        return Some((
+            ".frame.shear_failure",
+            "of frames at lines of a plan is not exported yet; leave it out to compare columns that keep their shear strength",
+        ));
+    }
+    if any(|frame| {
+        !frame.is_along_an_axis() && (frame.has_masses_between_floors() || !frame.base.is_fixed())
+    }) {
+        return Some((
+            ".frame.direction",
+            "is neither x nor y, and the frame has masses between floors or springs at its base, which are exported only along x and y; give column_segments = 1 and a fixed base to compare",
+        ));
+    }
+    None
+}
+
+impl Script<'_> {
+    /// Joints, members, hinges, fibres and diagonals of all frames of a building.
+    pub(super) fn add_plan_frames(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        tiers: &Tiers,
+    ) -> Result<(), &'static str> {
+        let discretization = &building.discretization;
+        let stick_model = &discretization.stick_model;
+        let frames: BTreeMap<usize, &PlanFrame> = (0..stick_model.nodes.len())
+            .filter_map(|node| {
+                let number = stick_model.turn(node).elevation.checked_sub(1)?;
+                Some((node, tiers.frames.get(number)?))
+            })
+            .collect();
+        let ties = Ties::new(stick_model);
+        let held = |node: usize, component: usize| {
+            is_held(stick_model, node, component) || ties.held.contains(&(node, component))
+        };
+        self.add_upright_joints(index, stick_model, &frames, held);
+        let stiff = Stiff::of(stick_model);
+        for member in &stick_model.members {
+            let [mut a, mut b] = member.ends;
+            let Some(frame) = frames.get(&a) else {
+                continue;
+            };
+            let nodes = &stick_model.nodes;
+            if nodes[a].x + nodes[a].y > nodes[b].x + nodes[b].y {
+                (a, b) = (b, a);
+            }
+            let vertical = is_vertical(stick_model, member.ends);
+            if vertical && member.axial_rigidity.is_none() && !(held(a, 1) && held(b, 1)) {
+                self.remark("Columns that keep their length are given EA = 1e4 * 12 EI / l^2.");
+            }
+            self.add_upright_member(
+                [a, b].map(|node| self.tag(index, node)),
+                (vertical, frame.direction),
+                [
+                    Some(member.flexural_rigidity),
+                    member.axial_rigidity,
+                    member.shear_rigidity,
+                ],
+            );
+        }
+        for hinge in &stick_model.hinges {
+            let Some(frame) = frames.get(&hinge.ends[0]) else {
+                continue;
+            };
+            if let Some(component) = arm(stick_model, hinge) {
+                let [joint, end] = hinge.ends.map(|node| stick_model.nodes[node]);
+                let length = (end.x - joint.x).abs().max((end.y - joint.y).abs());
+                let rigidity = stiff.turning * length;
+                let mut ends = hinge.ends;
+                if end.x + end.y < joint.x + joint.y {
+                    ends.reverse();
+                }
+                self.add_upright_member(
+                    ends.map(|node| self.tag(index, node)),
+                    (component == 0, frame.direction),
+                    [Some(rigidity), Some(stiff.moving * length), None],
+                );
+                self.remark("Rigid arms are beams 1e6 times as stiff as the stiffest member.");
+                continue;
+            }
+            self.add_upright_hinge(index, stick_model, hinge, frame, (&stiff, held))?;
+        }
+        self.add_upright_fibres(index, building, &frames)?;
+        self.add_upright_slides(index, building, &frames)?;
+        for diagonal in &discretization.diagonals {
+            if diagonal.frame.is_some() {
+                let ends = diagonal.ends.map(|node| self.tag(index, node));
+                self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+            }
+        }
+        Ok(())
+    }
+
+    fn add_upright_joints(
+        &mut self,
+        index: usize,
+        stick_model: &StickModel,
+        frames: &BTreeMap<usize, &PlanFrame>,
+        held: impl Fn(usize, usize) -> bool,
+    ) {
+        for (number, frame) in frames {
+            let node = stick_model.nodes[*number];
+            let tag = self.tag(index, *number);
+            let floor = floor_of(stick_model, *number);
+            let on = floor.map_or_else(
+                || "None".to_owned(),
+                |floor| self.tag(index, floor).to_string(),
+            );
+            let [x, y] = frame.point_at(node.x).map(rounded);
+            let [c, s] = frame.direction;
+            let holds = [0, 1, 2].map(|component| usize::from(held(*number, component)));
+            let moving = node.support != Support::Fixed;
+            let [mass, rising, turning] = match moving {
+                true => node.inertia,
+                false => [0.0; COMPONENTS],
+            };
+            let _ = writeln!(
+                self.upright,
+                "    ({tag}, {x:?}, {y:?}, {:?}, {on}, ({c:?}, {s:?}), ({}, {}, {}), {mass:?}, {turning:?}),",
+                rounded(node.y),
+                holds[0],
+                holds[1],
+                holds[2],
+            );
+            if holds[1] == 0 && (rising != 0.0 || node.load != 0.0) {
+                let _ = writeln!(self.carried, "    ({tag}, {rising:?}, {:?}),", node.load);
+            }
+        }
+    }
+
+    /// A column or a beam: EI, EA and G As in the plane of its frame.
+    fn add_upright_member(
+        &mut self,
+        [first, last]: [usize; 2],
+        (vertical, [c, s]): (bool, [f64; 2]),
+        rigidities: [Option<f64>; 3],
+    ) {
+        let towards = if vertical {
+            [c, s, 0.0]
+        } else {
+            [0.0, 0.0, 1.0]
+        };
+        let element = self.element();
+        let text = |value: Option<f64>| {
+            value.map_or_else(|| "None".to_owned(), |value| format!("{value:?}"))
+        };
+        let [bending, axial, _] = rigidities.map(text);
+        let shear = rigidities[2];
+        let shear = shear.map_or_else(
+            || "None".to_owned(),
+            |value| format!("({value:?}, {value:?})"),
+        );
+        let _ = writeln!(
+            self.space_members,
+            "    ({element}, {first}, {last}, {bending}, 0.0, 0.0, {axial}, {shear}, ({:?}, {:?}, {:?})),",
+            towards[0], towards[1], towards[2],
+        );
+    }
+
+    fn add_upright_hinge(
+        &mut self,
+        index: usize,
+        stick_model: &StickModel,
+        hinge: &Hinge,
+        frame: &PlanFrame,
+        (stiff, held): (&Stiff, impl Fn(usize, usize) -> bool),
+    ) -> Result<(), &'static str> {
+        // Rotations in the plane of the frame count the other way about the axis across it.
+        let ends = hinge.ends;
+        let tags = ends.map(|node| self.tag(index, node));
+        for (component, stiffness) in stiffnesses(hinge).into_iter().enumerate() {
+            let materials = match stiffness {
+                None => {
+                    let follow = |node: &usize| {
+                        held(*node, component)
+                            || component == 0 && floor_of(stick_model, *node).is_some()
+                    };
+                    if ends.iter().all(follow) {
+                        continue;
+                    }
+                    let rigid = match component {
+                        2 => stiff.turning,
+                        _ => stiff.moving,
+                    };
+                    self.remark("Ends of members with hinges are joined to their joints by springs of 1e6 times the stiffest member where they have no hinge.");
+                    vec![(
+                        self.materials.elastic(rigid, 0.0),
+                        ProportionalDamping::None,
+                    )]
+                }
+                Some(stiffness) => {
+                    let hysteresis = hinge.hysteresis.as_ref().filter(|_| component == 2);
+                    let dashpot = hinge.dashpots[component];
+                    let materials = self.spring_materials(stiffness, hysteresis, dashpot)?;
+                    let damped = |material| (material, hinge.proportional_damping);
+                    materials.into_iter().map(damped).collect()
+                }
+            };
+            for (material, damped) in materials {
+                self.add_upright_spring(
+                    tags,
+                    frame.direction,
+                    (DIRECTIONS[component], material),
+                    damped,
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn add_upright_spring(
+        &mut self,
+        [first, last]: [usize; 2],
+        [c, s]: [f64; 2],
+        (direction, material): (usize, usize),
+        damped: ProportionalDamping,
+    ) {
+        let element = self.element();
+        let damped = python_damping(damped);
+        let _ = writeln!(
+            self.upright_springs,
+            "    ({element}, {first}, {last}, {direction}, {material}, {damped}, ({c:?}, {s:?})),"
+        );
+    }
+
+    fn add_upright_fibres(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        frames: &BTreeMap<usize, &PlanFrame>,
+    ) -> Result<(), &'static str> {
+        for section in &building.discretization.sections {
+            let mut nodes = [0; 2];
+            let mut line = None;
+            for (place, share) in section.elongation.entries() {
+                let node = place / COMPONENTS;
+                nodes[usize::from(*share > 0.0)] = self.tag(index, node);
+                line = frames.get(&node);
+            }
+            if let Some(frame) = line {
+                let end = FibreEnd {
+                    section,
+                    nodes,
+                    direction: frame.direction,
+                };
+                self.add_fibre_end(building, &end)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Walls that slide at their feet, and coupling beams that yield in shear.
+    fn add_upright_slides(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        frames: &BTreeMap<usize, &PlanFrame>,
+    ) -> Result<(), &'static str> {
+        let discretization = &building.discretization;
+        for (number, element) in discretization.stick_model.yielding.iter().enumerate() {
+            let mut sections = discretization.sections.iter();
+            if sections.any(|section| section.elements.contains(&number)) {
+                continue;
+            }
+            let [(a, share), (b, _)] = *element.row.entries() else {
+                continue;
+            };
+            let [first, last] = if share < 0.0 { [a, b] } else { [b, a] };
+            let Some(frame) = frames.get(&(first / COMPONENTS)) else {
+                continue;
+            };
+            let nodes = [first, last].map(|place| self.tag(index, place / COMPONENTS));
+            let material = self.materials.yielding(&element.hysteresis)?;
+            let along = (DIRECTIONS[first % COMPONENTS], material);
+            self.add_upright_spring(nodes, frame.direction, along, element.proportional_damping);
+        }
+        Ok(())
+    }
+}
+
+/// Whether a node stands in a frame at a line of a plan.
+fn stands_in_frame(stick_model: &StickModel, node: usize) -> bool {
+    (1..Turn::FLOORS).contains(&stick_model.turn(node).elevation)
+}
+
+/// The floor or mat with which a node moves along the line of its frame. Rigid ends of columns follow the rotation of their joint as well.
+fn floor_of(stick_model: &StickModel, node: usize) -> Option<usize> {
+    let row = stick_model.ties.get(&(COMPONENTS * node))?;
+    let mut nodes = row.entries().iter().map(|(place, _)| place / COMPONENTS);
+    let floor = nodes.next()?;
+    (!stands_in_frame(stick_model, floor) && nodes.all(|other| other == floor)).then_some(floor)
+}
+
+/// The displacement of the end of a rigid arm that a hinge leaves to the rotation of the joint, if it is one.
+fn arm(stick_model: &StickModel, hinge: &Hinge) -> Option<usize> {
+    let [joint, end] = hinge.ends.map(|node| stick_model.nodes[node]);
+    let apart = (end.x - joint.x).abs() + (end.y - joint.y).abs() > 0.0;
+    let free = |component: &usize| hinge.translational_stiffness[*component] == Some(0.0);
+    let component = [0, 1].into_iter().find(free)?;
+    (apart && hinge.rotational_stiffness.is_none()).then_some(component)
+}
+
+/// Stiffness of rigid connections.
+struct Stiff {
+    /// Of what does not move \[N/m\].
+    moving: f64,
+    /// Of what does not turn \[N·m/rad\].
+    turning: f64,
+}
+
+impl Stiff {
+    fn of(stick_model: &StickModel) -> Self {
+        let (mut moving, mut turning) = (0.0_f64, 0.0_f64);
+        for member in &stick_model.members {
+            let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
+            let length = (b.x - a.x).abs().max((b.y - a.y).abs());
+            let bending = member.flexural_rigidity / length;
+            let axial = member.axial_rigidity.map_or(0.0, |axial| axial / length);
+            moving = moving.max(axial).max(12.0 * bending / (length * length));
+            turning = turning.max(4.0 * bending);
+        }
+        Self {
+            moving: STIFF * moving,
+            turning: STIFF * turning,
+        }
+    }
+}
