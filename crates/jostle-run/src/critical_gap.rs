@@ -64,7 +64,7 @@ pub struct CriticalGap {
     pub closing_without_contact_m: f64,
     /// Height of the contact that closes most \[m\].
     pub height_m: f64,
-    /// Runs made: the one without contact, and those with gaps whose outcome does not follow from it.
+    /// Runs made: one without contact for each sign of the motion, and those with gaps whose outcome does not follow from it.
     pub runs: usize,
     /// First lateral periods of the neighbours \[s\].
     pub periods_s: [f64; 2],
@@ -640,7 +640,7 @@ impl Search<'_> {
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
-            runs: 1 + signs.iter().map(|sign| sign.known.len()).sum::<usize>(),
+            runs: signs.iter().map(|sign| 1 + sign.known.len()).sum(),
             periods_s: modes.map(|mode| mode.map_or(0.0, |(period, _)| period)),
             damping: modes.map(|mode| mode.map_or(0.0, |(_, damping)| damping)),
             ddc_correlation: apart.summary.correlation(model, gap),

@@ -229,9 +229,9 @@ const FAMILIES: [(&str, &str, Make); 27] = [
         "Buildings in space in OpenSees",
         "Symmetric buildings with an eccentric face; eccentric stiffness; columns and walls at points, with P-Delta and \
          two components at an angle; five storeys beside three at 30°; three buildings around a corner; corners that \
-         pass each other; space frames, one with columns whose ends are made of fibres. All are given as model files, with a tolerance of 10⁻⁴. The reference is \
-         OpenSees with the exported scripts and steps of 0.1 ms, near contact 0.01 ms; the steps are four times as long \
-         for space frames.",
+         pass each other; space frames, one with columns whose ends are made of fibres, two with a wall; frames at lines of a plan \
+         that yield. All are given as model files, with a tolerance of 10⁻⁴. The reference is OpenSees with the exported scripts and \
+         steps of 0.1 ms, near contact 0.01 ms; the steps are four times as long for two space frames, and twice for frames at lines.",
         |_| plan_in_opensees::rows(),
     ),
     (

@@ -12,7 +12,7 @@ use crate::files::{case, model, run_model};
 use crate::row::Row;
 use crate::yielding::OF_FIBRES;
 
-const CASES: [(&str, &str, &str, f64); 10] = [
+const CASES: [(&str, &str, &str, f64); 13] = [
     case!("plan_symmetric", 1e-4),
     case!("plan_eccentric", 1e-4),
     case!("plan_elements", 1e-4),
@@ -27,6 +27,10 @@ const CASES: [(&str, &str, &str, f64); 10] = [
     case!("plan_isolated", 5e-4),
     case!("plan_isolated_frame", 3e-4),
     case!("plan_fibres", 3e-4),
+    // Stepped by 0.2 ms, near contact 0.02 ms.
+    case!("plan_frames", 3e-4),
+    case!("plan_walls", 3e-4),
+    case!("plan_fibre_walls", 3e-4),
 ];
 /// Ours, on peak forces and displacements \[–\].
 const TOLERANCE: f64 = 1e-4;

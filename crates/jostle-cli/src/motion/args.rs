@@ -30,12 +30,11 @@ const READING: &str = "Reading the record";
 pub(crate) struct RecordArgs {
     /// A built-in name, or a file
     pub(crate) record: String,
-    /// Unit of the numbers, if the file does not state it, such as g or cm/s2; it overrides that of AT2 files and columns
-    /// of text
+    /// Unit of the numbers, such as g or cm/s2, if the file does not state it. In AT2 files and columns of text, it replaces
+    /// that of the file
     #[arg(long, value_name = "UNIT", help_heading = READING)]
     pub(crate) unit: Option<String>,
-    /// Time step, if the file does not state it; it overrides that of AT2 files and the comment "# step" in columns of
-    /// text
+    /// Time step, if the file does not state it. In AT2 files and columns of text, it replaces that of the file
     #[arg(long, value_name = "TIME", help_heading = READING)]
     pub(crate) step: Option<String>,
     /// Column of the acceleration in a text file, counted from 1

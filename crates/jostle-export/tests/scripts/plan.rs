@@ -241,9 +241,71 @@ fn braces_of_space_frames_join_their_joints() {
     assert_eq!(found[0], ([6.0, 0.0, 0.0], [11.0, 0.0, 4.0], "True"));
     assert_eq!(found[1], ([11.0, 0.0, 0.0], [6.0, 0.0, 4.0], "True"));
     assert_eq!(found[7], ([11.0, 5.0, 4.0], [11.0, 9.0, 7.2], "False"));
-    let rigid = FRAME.replace("\nshear =", "\nrigid_ends = 1\nshear =");
-    let faults = export(&model(&rigid)).expect_err("not yet");
-    assert_eq!(faults[0].path, "building[0].rigid_ends");
+}
+
+/// Members of a space frame have rigid ends, unless hinges stand there.
+#[test]
+fn rigid_ends_of_space_frames_are_offsets_of_joints() {
+    const FRAME: &str = include_str!("../../../jostle-validation/data/space/S8_space_frame.toml");
+    let input = model(&FRAME.replace("\nshear =", "\nrigid_ends = 1\nshear ="));
+    let text = export(&input).expect("it can be exported").text;
+    let members = table(&text, "COLUMNS_AND_BEAMS");
+    let rigid = table(&text, "RIGID_ENDS");
+    let jostle::Structure::Tiers(tiers) = &input.model.buildings[0].structure else {
+        panic!("a plan");
+    };
+    let frame = tiers.space_frame.as_ref().expect("a space frame");
+    let due = frame
+        .members
+        .iter()
+        .map(|member| frame.rigid_ends(member.place));
+    let due: Vec<[f64; 2]> = due.filter(|ends| *ends != [0.0; 2]).collect();
+    assert!(due.len() > 40 && due.len() == rigid.len());
+    for (row, due) in rigid.iter().zip(due) {
+        assert_eq!([number(&row[1]), number(&row[2])], due);
+        assert!(members.iter().any(|member| member[0] == row[0]));
+    }
+    let hinged = include_str!("../../../jostle-validation/data/opensees/yielding_space_frame.toml");
+    let hinged = hinged.replace("\nbeam_x =", "\nrigid_ends = 1\nbeam_x =");
+    let faults = export(&model(&hinged)).expect_err("hinges on arms");
+    assert_eq!(faults[0].path, "building[0].hinges");
+}
+
+/// Joints of frames at lines move with their floors along their line; members stand between them in the plane of their frame.
+#[test]
+fn frames_at_lines_are_written_member_by_member() {
+    const FRAMES: &str = include_str!("../../../jostle-validation/data/opensees/plan_frames.toml");
+    let text = export(&model(FRAMES)).expect("it can be exported").text;
+    let joints = table(&text, "UPRIGHT");
+    let joint = |tag: &str| joints.iter().find(|row| row[0] == tag).expect("a joint");
+    let place = |tag: &str| [1, 2, 3].map(|axis| number(&joint(tag)[axis]));
+    let members = table(&text, "COLUMNS_AND_BEAMS");
+    // Of the office four, four, three and three columns and as many bays less one; of the annexe five times three columns.
+    assert_eq!(members.len(), 3 * (14 + 10) + 2 * (15 + 10));
+    for row in &members {
+        let (a, b) = (place(&row[1]), place(&row[2]));
+        let line = [5, 6].map(|axis| number(&joint(&row[1])[axis]));
+        // Nothing leaves the plane of the frame.
+        let across = (b[0] - a[0]) * line[1] - (b[1] - a[1]) * line[0];
+        assert!(across.abs() < 1e-9, "{row:?}");
+        let [sideways, torsion] = [&row[4], &row[5]].map(|value| number(value));
+        assert_eq!([sideways, torsion], [0.0; 2]);
+    }
+    // Feet are held, and no others.
+    let held = joints.iter().filter(|row| row[4] == "None");
+    let feet: Vec<f64> = held.map(|row| number(&row[3])).collect();
+    assert!(feet.iter().all(|height| *height == 0.0) && feet.len() == 14 + 15);
+    let failing = FRAMES.replacen(
+        "direction = \"y\"",
+        "shear_failure = { strength = \"400 kN\", slope = \"5 MN/m\" }\ndirection = \"y\"",
+        1,
+    );
+    let faults = export(&model(&failing)).expect_err("refused");
+    assert!(
+        faults[0].path.ends_with("shear_failure"),
+        "{}",
+        faults[0].path
+    );
 }
 
 /// An end of a member with hinges is a node of its own, which a spring joins to its joint upwards and about both axes.

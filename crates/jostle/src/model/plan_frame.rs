@@ -310,7 +310,11 @@ impl PlanFrame {
                 let Some(column) = frame.column(storey, line) else {
                     continue;
                 };
-                let column = column.line_mass * frame.storey_heights[storey];
+                // Rigid ends move with their joints; what is between them is lumped at the ends of its parts.
+                let [foot, head] = frame.rigid_ends_of_column([storey, line]);
+                let [foot_mass, head_mass] = [foot, head].map(|length| length * column.line_mass);
+                let height = frame.storey_heights[storey];
+                let column = column.line_mass * (height - foot - head);
                 let at = self.point_at(*along);
                 let mut add = |level: usize, kind: usize, mass: f64| {
                     if mass > 0.0 {
@@ -319,8 +323,8 @@ impl PlanFrame {
                 };
                 if !doubled(line) {
                     let end = 0.5 * column / k as f64;
-                    add(below, BOTH_WAYS, end);
-                    add(above, BOTH_WAYS, end);
+                    add(below, BOTH_WAYS, end + foot_mass);
+                    add(above, BOTH_WAYS, end + head_mass);
                 }
                 let floor_mass = frame.floor_mass.get(storey).copied();
                 let joint = floor_mass.unwrap_or(0.0) / columns as f64;
@@ -328,6 +332,7 @@ impl PlanFrame {
                 if !crossed(line) {
                     for cut in 1..k {
                         let share = cut as f64 / k as f64;
+                        let share = share + (foot - share * (foot + head)) / height;
                         add(below, out_of_plane, (1.0 - share) * column / k as f64);
                         add(above, out_of_plane, share * column / k as f64);
                     }
