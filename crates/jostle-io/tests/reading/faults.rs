@@ -100,7 +100,7 @@ model.toml:11:19: building[0].spans[1]: must be greater than zero, found -6 m
 model.toml:12:30: building[0].column.hight: unknown key "hight"
   12 | column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
      |                              ^^^^^
-  help: known here: width, depth, profile, axis, EI, EA, GA, mass, line, storeys, omit, concrete, steel, strength, bars, cover, ties, axial_load
+  help: known here: width, depth, profile, axis, yield_strength, EI, EA, GA, mass, line, storeys, omit, concrete, steel, strength, bars, cover, ties, axial_load
 
 model.toml:13:8: building[0].beam: has 2 entries for 5 storeys; give one value, or one per storey from the ground up
   13 | beam = [{ width = "300 mm", depth = "600 mm" }, { EI = 1e8 }]
