@@ -144,8 +144,8 @@ fn same_floors(outcome: &Outcome, plane: &Outcome, share: f64, [tolerance, of_fo
     }
 }
 
-/// Mass that a frame adds to a floor if its columns move with the floors: rigid ends with their joint, half of what is between them
-/// where it is in the middle of its storey.
+/// Mass that a frame adds to a floor if its columns move with the floors: rigid ends, and half of the parts beside them, with their
+/// joint; points between the parts by their height.
 fn frame_mass(frame: &Frame, floor: usize) -> f64 {
     let of_columns = |storey: usize, end: usize| -> f64 {
         let columns = (0..frame.lines()).filter_map(|line| {
@@ -154,9 +154,10 @@ fn frame_mass(frame: &Frame, floor: usize) -> f64 {
         });
         let masses = columns.map(|(column, rigid)| {
             let height = frame.storey_heights[storey];
-            let clear = height - rigid[0] - rigid[1];
-            let middle = (rigid[1 - end] + 0.5 * clear) / height;
-            column.line_mass * (rigid[end] + clear * middle)
+            let part = (height - rigid[0] - rigid[1]) / frame.column_segments as f64;
+            let points = (1..frame.column_segments).map(|cut| rigid[1 - end] + part * cut as f64);
+            let shares: f64 = points.map(|point| part * point / height).sum();
+            column.line_mass * (rigid[end] + 0.5 * part + shares)
         });
         masses.sum()
     };
