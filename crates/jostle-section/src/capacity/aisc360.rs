@@ -26,12 +26,15 @@ pub struct SteelMember {
     pub modulus: f64,
 }
 
-/// A wall of a profile: width over thickness, the ratio times √(F_y/E) from which it is slender in compression, the factors of table
-/// E7.1, and the area between full and effective width per share of width.
+/// Equal walls of a profile, such as both flanges.
 struct Wall {
+    /// Width over thickness \[–\].
     slenderness: f64,
+    /// Slenderness times √(F_y/E) from which they buckle before they yield (table B4.1a) \[–\].
     limit: f64,
+    /// c₁ and c₂ of table E7.1 \[–\].
     factors: [f64; 2],
+    /// Area of all of them, in full width \[m²\].
     area: f64,
 }
 
@@ -264,8 +267,9 @@ mod tests {
         }
     }
 
-    /// AISC, Companion to the Steel Construction Manual, Design Examples (version 15.0): E.1A (893 kips = 0.9 P_n) and H.1B
-    /// (0.9 P_n = 1130 kips, 0.9 M_nx = 642 kip ft, 0.9 M_ny = 311 kip ft; 642 is bent over 14 ft with C_b = 1, 646 without).
+    /// AISC, Companion to the Steel Construction Manual, Design Examples (version 15.0), with resistance factors of 0.9. E.1A:
+    /// 893 kips. H.1B: 1130 kips, 642 and 311 kip ft. The 642 kip ft include lateral-torsional buckling over 14 ft; without it they are
+    /// 646.
     #[test]
     fn strengths_are_those_of_published_examples() {
         let tall = american("W14X132", 50.0);
