@@ -698,8 +698,8 @@ pub fn contact_names(summary: &Summary) -> Vec<String> {
         for contact in &gap.contacts {
             let place = joint_place("floor", contact.floors, contact.height_m);
             // A slab may strike several columns at one height.
-            let column = contact.struck_column();
-            let column = column.map(|[x, y]| format!("_column{x}-{y}"));
+            let column = contact.struck_column.as_ref();
+            let column = column.map(|line| format!("_column{}", plain(&line.replace('.', "-"))));
             names.push(format!("{pair}.{place}{}", column.unwrap_or_default()));
         }
     }

@@ -103,10 +103,15 @@ pub(crate) fn coordinates(page: &Page, place: &Place) -> (char, usize, usize, us
     let last = |end| usize::from(end == MemberEnd::Last);
     match place.at {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
-        SpringPlace::Struck { member, .. } => match member {
-            MemberPlace::Column { line, storey } => ('m', storey, line, thousandths(page, place)),
-            MemberPlace::Beam { floor: level, .. } => ('s', level, 0, 0),
-            MemberPlace::InSpace(place) => ('s', place.storey() + 1, 0, 0),
+        SpringPlace::Struck { frame, member, .. } => match (frame, member) {
+            (None, MemberPlace::Column { line, storey }) => {
+                ('m', storey, line, thousandths(page, place))
+            }
+            (
+                _,
+                MemberPlace::Column { storey: level, .. } | MemberPlace::Beam { floor: level, .. },
+            ) => ('s', level, 0, 0),
+            (_, MemberPlace::InSpace(place)) => ('s', place.storey() + 1, 0, 0),
         },
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Shear {

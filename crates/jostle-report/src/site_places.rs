@@ -183,18 +183,23 @@ pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: Pl
         }
         _ => None,
     };
-    part_in_words(part, plan.map_or(0, |floor| floor.plan.len()))
+    let frames = match &building.structure {
+        jostle::Structure::Tiers(tiers) => &tiers.frames[..],
+        _ => &[],
+    };
+    let frames: Vec<String> = frames.iter().map(|frame| frame.name.clone()).collect();
+    part_in_words(part, plan.map_or(0, |floor| floor.plan.len()), &frames)
 }
 
-/// `corner 3`, or `edge 2–3`; corners count from 1.
-fn part_in_words(part: PlanPart, corners: usize) -> String {
+/// `corner 3`, or `edge 2–3`; corners count from 1. `frames`: names of those at lines.
+fn part_in_words(part: PlanPart, corners: usize, frames: &[String]) -> String {
     match part {
         PlanPart::Corner(index) => message::corner_index(index + 1),
         PlanPart::Edge(index) => {
             let next = if index + 1 == corners { 0 } else { index + 1 };
             message::edge_index_next(index + 1, next + 1)
         }
-        PlanPart::Column([x, y]) => message::column_at_x_y(x + 1, y + 1),
+        PlanPart::Column(line) => message::column_at_line(line.name(frames)),
     }
 }
 
@@ -222,9 +227,9 @@ mod tests {
 
     #[test]
     fn parts_and_floors_have_names() {
-        assert_eq!(part_in_words(PlanPart::Edge(1), 4), "edge 2–3");
-        assert_eq!(part_in_words(PlanPart::Edge(3), 4), "edge 4–1");
-        assert_eq!(part_in_words(PlanPart::Corner(0), 4), "corner 1");
+        assert_eq!(part_in_words(PlanPart::Edge(1), 4, &[]), "edge 2–3");
+        assert_eq!(part_in_words(PlanPart::Edge(3), 4, &[]), "edge 4–1");
+        assert_eq!(part_in_words(PlanPart::Corner(0), 4, &[]), "corner 1");
         let place = |floors: &[[Option<usize>; 2]]| SitePlace {
             gap_index: 0,
             between: [0, 1],

@@ -291,8 +291,8 @@ fn histories(page: &Page) -> Markup {
 }
 
 fn kind_in_words(contact: &ContactSummary, kind: PlanContactKind) -> String {
-    match (kind, contact.struck_column()) {
-        (_, Some([x, y])) => message::column_at_x_y(x, y),
+    match (kind, &contact.struck_column) {
+        (_, Some(line)) => message::column_at_line(line),
         (PlanContactKind::Corner, None) => message::corner().to_owned(),
         (PlanContactKind::Face | PlanContactKind::Column, None) => message::face().to_owned(),
     }

@@ -202,10 +202,10 @@ pub(crate) fn place(summary: &Summary, gap: &GapSummary, contact: &ContactSummar
         _ => {}
     }
     let height = message::height_m(format::in_unit(format::HEIGHT, contact.height_m, 2));
-    let column = contact.struck_column().map_or_else(
-        || message::a_column().to_owned(),
-        |[x, y]| message::column_at_x_y(x, y),
-    );
+    let column = contact
+        .struck_column
+        .as_ref()
+        .map_or_else(|| message::a_column().to_owned(), message::column_at_line);
     match contact.floors {
         [Some(0), Some(0)] => message::mats().to_owned(),
         [Some(0), None] | [None, Some(0)] => message::mat().to_owned(),

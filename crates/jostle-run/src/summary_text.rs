@@ -738,8 +738,9 @@ fn write_gap(
         Some(floor) => floor.to_string(),
         None if is_wall(&gap.between[side]) => WALL.to_owned(),
         None => contact
-            .struck_column()
-            .map_or_else(|| "–".to_owned(), |[x, y]| format!("column {x}.{y}")),
+            .struck_column
+            .as_ref()
+            .map_or_else(|| "–".to_owned(), |line| format!("column {line}")),
     };
     let listed = hit.iter().take(LISTED);
     let places = listed.map(|contact| format!("{} | {}", point(contact, 0), point(contact, 1)));

@@ -114,16 +114,16 @@ pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, UnmetColumns, floor_and_height, sticking_stiffness};
 pub use model::{
     AcrossBase, Analysis, Axial, Base, BearingBounds, BearingFactors, BearingStrength, BedSpring,
-    Building, ColumnFibres, CouplingBeam, Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre,
-    FibreLimit, FibreMaterial, FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame,
-    FrameHinges, FramePlace, FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GridLine,
-    GroundSprings, HalfSpace, Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint,
-    JointRequest, Level, Link, LinkLaw, MassDamping, MemberRequest, Model, ModelFault, PanelAcross,
-    PanelDamage, PlanArea, PlanAxis, PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint,
-    PlanSpring, ProportionalDamping, Reach, Rise, Section, Shear, ShearEnds, ShearSpring,
-    SlidingSurface, Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
-    SpaceWall, SpeedFriction, Stop, Structure, StrutLine, Sway, Tier, TierStorey, Tiers, Uplift,
-    Wall, WallHinge,
+    Building, ColumnFibres, ColumnLine, CouplingBeam, Damping, Diagonal, DiagonalKind,
+    DiagonalPlace, Fibre, FibreLimit, FibreMaterial, FloorMatrices, FloorPairs, Foundation,
+    FoundationSprings, Frame, FrameHinges, FramePlace, FrameWall, Gap, Given, GivenFloor,
+    GivenInPlan, Gravity, GridLine, GroundSprings, HalfSpace, Hinges, Integrator, Isolation,
+    Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw, MassDamping,
+    MemberRequest, Model, ModelFault, PanelAcross, PanelDamage, PlanArea, PlanAxis, PlanColumn,
+    PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint, PlanSpring, ProportionalDamping,
+    Reach, Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface, Soil, SoilCoupling,
+    Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall, SpeedFriction, Stop,
+    Structure, StrutLine, Sway, Tier, TierStorey, Tiers, Uplift, Wall, WallHinge,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -69,11 +69,10 @@ impl Script<'_> {
                 "of floors in plan are not exported to OpenSees yet; write --to matrices, or export the model from which they come",
             );
         }
-        let frame = building.discretization.jointed_frame.as_deref();
-        if frame.is_some_and(|frame| !frame.points.is_empty()) {
+        if !building.discretization.points.is_empty() {
             return refuse(
                 "",
-                "has columns that a neighbour can hit between floors, or that struts meet there; such points of space frames are not exported to OpenSees yet: list pairs of floors at equal height, and leave offset and struts out",
+                "has columns that a neighbour can hit between floors, or that struts meet there; such points of buildings with a plan are not exported to OpenSees yet: list pairs of floors at equal height, and leave offset and struts out",
             );
         }
         let title = format!("    # {}\n", comment(&building.name));

@@ -67,18 +67,22 @@ pub(super) fn read_in_plan(
 struct Defaults {
     density: f64,
     segments: usize,
+    /// Whether the faces of columns matter: they stand before the edge of a plan or behind it.
+    knows_depths: bool,
 }
 
 /// Of a plane frame.
 const PLANE: Defaults = Defaults {
     density: CONCRETE_DENSITY,
     segments: 4,
+    knows_depths: false,
 };
 
 /// Of a frame in a plan: the masses of the floors include it.
 const IN_PLAN: Defaults = Defaults {
     density: 0.0,
     segments: 1,
+    knows_depths: true,
 };
 
 fn read_members(
@@ -148,6 +152,14 @@ fn read_members(
         ..Frame::default()
     };
     frame.rigid_zones = rigid_ends::read(reader, view, &frame, &members.depths);
+    if defaults.knows_depths {
+        let rows = members.depths[0].iter().enumerate();
+        let depths = rows.flat_map(|(storey, row)| {
+            let row = row.iter().enumerate();
+            row.filter_map(move |(line, depth)| Some(([storey, line], (*depth)?)))
+        });
+        frame.column_depths = depths.collect();
+    }
     let has_joints = |place: DiagonalPlace| {
         let [lower, upper] = place.lines();
         let mut lines = place.lines().into_iter();

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use jostle::hysteresis::{FallingBranch, Hysteresis, SpringFault};
 use jostle::model::CapacityLine;
 use jostle::{
-    Frame, Hinges, Model, PlanAxis, ShearEnds, ShearSpring, SpaceFrame, SpacePlace, Structure,
+    ColumnLine, Frame, Hinges, Model, PlanAxis, PlanColumn, ShearEnds, ShearSpring, SpaceFrame,
+    SpacePlace, Structure,
 };
 use jostle_section::capacity::{RatedMember, ShearRule};
 
@@ -398,22 +399,29 @@ pub(super) fn add_heads(model: &mut Model, reader: &mut Reader<'_>, view: &View<
         reader.get(&failure_view, "ends")
     };
     for index in 0..model.buildings.len() {
-        if let Structure::Tiers(tiers) = &model.buildings[index].structure
-            && let Some(frame) = &tiers.space_frame
-        {
-            if frame.shear.is_empty() {
-                continue;
-            }
+        if let Structure::Tiers(_) = &model.buildings[index].structure {
             let struck = model.columns_struck_between_floors(index);
             let Structure::Tiers(tiers) = &mut model.buildings[index].structure else {
                 continue;
             };
-            let shear = tiers
-                .space_frame
-                .iter_mut()
-                .flat_map(|frame| &mut frame.shear);
-            for (_, spring) in shear.filter(|((column, _), _)| struck.contains(column)) {
-                spring.ends = ShearEnds::Both;
+            for PlanColumn { line, storey } in struck {
+                match line {
+                    ColumnLine::Crossing(line) => {
+                        let column = SpacePlace::Column { line, storey };
+                        let frames = tiers.space_frame.iter_mut();
+                        let shear = frames.flat_map(|frame| &mut frame.shear);
+                        for (_, spring) in shear.filter(|((of, _), _)| *of == column) {
+                            spring.ends = ShearEnds::Both;
+                        }
+                    }
+                    ColumnLine::OfFrame([frame, line]) => {
+                        let shear = &mut tiers.frames[frame].hinges.shear;
+                        let spring = shear.get_mut(storey).and_then(|row| row.get_mut(line));
+                        if let Some(spring) = spring {
+                            spring.ends = ShearEnds::Both;
+                        }
+                    }
+                }
             }
             continue;
         }

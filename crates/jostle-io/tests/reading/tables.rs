@@ -68,6 +68,7 @@ fn contact(
 ) -> ContactSummary {
     ContactSummary {
         in_plan: None,
+        struck_column: None,
         floors,
         height_m,
         width_m: 0.01,

@@ -805,7 +805,7 @@ messages! {
     end = "end";
     corner_index(index) = "corner {index}";
     edge_index_next(index, next) = "edge {index}–{next}";
-    column_at_x_y(x, y) = "column {x}.{y}";
+    column_at_line(line) = "column {line}";
 
     // site_plan
     seen_from_above = "Seen from above";

@@ -4,7 +4,9 @@ use super::{Faults, each, given, plan_frames, space_frame};
 use crate::contact::LawKind;
 use crate::interface::plan_contacts::MOST_POINTS;
 use crate::interface::{columns_not_met, faces_of_gap};
-use crate::model::{Base, Building, Gap, Link, Model, PlanArea, PlanPoint, Structure, Tiers, Wall};
+use crate::model::{
+    Base, Building, ColumnLine, Gap, Link, Model, PlanArea, PlanPoint, Structure, Tiers, Wall,
+};
 
 /// Whether all buildings have plans, or none has.
 pub(super) fn check_space(faults: &mut Faults, model: &Model) {
@@ -490,13 +492,31 @@ fn check_struck(faults: &mut Faults, path: &str, model: &Model, building: usize)
     let Structure::Tiers(tiers) = &building_model.structure else {
         return;
     };
-    if model.is_struck_between_floors(building)
+    let name = &building_model.name;
+    let struck = model.columns_struck_between_floors(building);
+    if !struck.is_empty()
         && let Some(problem) = space_frame::fault_of_column_masses(tiers)
     {
         faults.add(
             format!("{path}.floors"),
-            format!("hits columns of \"{}\", {problem}", building_model.name),
+            format!("hits columns of \"{name}\", {problem}"),
         );
+    }
+    for column in struck {
+        let ColumnLine::OfFrame([frame, _]) = column.line else {
+            continue;
+        };
+        let frame = &tiers.frames[frame];
+        if !frame.is_along_an_axis() {
+            faults.add(
+                format!("{path}.floors"),
+                format!(
+                    "hits columns of frame {} of \"{name}\", which stands neither along x nor across: masses between floors would couple both directions; leave these points out, or describe \"{name}\" as a space frame",
+                    frame.name
+                ),
+            );
+            return;
+        }
     }
 }
 

@@ -127,7 +127,7 @@ fn check_one(faults: &mut Faults, at: &str, plan_frame: &PlanFrame, tiers: &Tier
     faults.require(
         plan_frame.is_along_an_axis() || !plan_frame.has_masses_between_floors(),
         format!("{at}.column_segments"),
-        || "must be 1 for columns with mass in a frame that stands neither along x nor across: masses between floors would couple both directions; or set density = 0 and count the columns in mass".into(),
+        || "must be 1 for columns with mass in a frame that stands neither along x nor across, and struts must meet them at joints: masses between floors would couple both directions; or set density = 0 and count the columns in mass".into(),
     );
 }
 

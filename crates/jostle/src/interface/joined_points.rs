@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::contact_points::{PointPair, SAME, point_pairs};
 use super::plan_gap::struck_columns;
-use crate::model::{FloorPairs, Model, SpacePlace};
+use crate::model::{FloorPairs, Model, PlanColumn};
 use crate::structure::StruckPoints;
 
 /// Points of all gaps and links of a checked model.
@@ -29,15 +29,10 @@ impl Model {
         JoinedPoints::new(self).points_on_faces(self, building)
     }
 
-    /// Columns of a space frame that others can strike between its floors.
+    /// Columns of a building with a plan that others can strike between its floors.
     #[must_use]
-    pub fn columns_struck_between_floors(&self, building: usize) -> BTreeSet<SpacePlace> {
+    pub fn columns_struck_between_floors(&self, building: usize) -> BTreeSet<PlanColumn> {
         struck_columns(self, building).into_keys().collect()
-    }
-
-    /// Whether others can strike columns of a space frame between its floors.
-    pub(crate) fn is_struck_between_floors(&self, building: usize) -> bool {
-        !struck_columns(self, building).is_empty()
     }
 }
 

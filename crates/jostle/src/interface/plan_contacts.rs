@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::model::{PlanContact, PlanPoint};
+use crate::model::{ColumnLine, PlanContact, PlanPoint};
 
 /// Greatest angle between edges that face each other \[rad\].
 const FACING: f64 = 0.1;
@@ -22,7 +22,7 @@ pub enum PlanContactKind {
     Face,
     /// A corner before an edge or before another corner.
     Corner,
-    /// An edge before a column of a space frame between its floors.
+    /// An edge before a column between its floors.
     Column,
 }
 
@@ -45,8 +45,8 @@ pub enum PlanPart {
     Edge(usize),
     /// The corner of this index, from 0.
     Corner(usize),
-    /// The column at the crossing of these lines of a space frame, from 0.
-    Column([usize; 2]),
+    /// The column at this line.
+    Column(ColumnLine),
 }
 
 /// Two edges that face each other, or a corner with one of the normals along which it can be touched.

@@ -8,19 +8,23 @@ use super::plan_contacts::{
 };
 use crate::linear::sort_by_key;
 use crate::model::{
-    Building, FloorPairs, Gap, Model, PlanContact, PlanPoint, SpaceFrame, SpacePlace, Structure,
+    Building, ColumnLine, FloorPairs, Gap, Model, PlanColumn, PlanContact, PlanFrame, PlanPoint,
+    SpaceFrame, SpacePlace, Structure, Tiers,
 };
 
 /// Cosine of the angle between normals of contacts on one side of a column \[–\].
 const SAME_SIDE: f64 = 0.9;
+
+/// Cosine of the angle to a frame beyond which contacts no longer strike its columns: about 6° \[–\].
+const ALONG: f64 = 0.995;
 
 /// What a face touches on one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Touched {
     /// A floor, from 1; 0 for a mat and for a wall.
     Floor(usize),
-    /// A column of a space frame, so far above the joint at its foot \[m\].
-    Column(SpacePlace, f64),
+    /// A column, so far above the joint at its foot \[m\].
+    Column(PlanColumn, f64),
 }
 
 impl Touched {
@@ -28,7 +32,7 @@ impl Touched {
     fn rank(self) -> usize {
         match self {
             Self::Floor(floor) => 2 * floor,
-            Self::Column(column, _) => 2 * column.storey() + 1,
+            Self::Column(column, _) => 2 * column.storey + 1,
         }
     }
 }
@@ -39,8 +43,80 @@ struct Side<'a> {
     first: usize,
     plans: Vec<Vec<PlanPoint>>,
     heights: Vec<f64>,
-    /// Columns that can be struck between floors, with the storey heights above a base at this height.
-    columns: Option<(&'a SpaceFrame, &'a [f64], f64)>,
+    /// The building whose columns can be struck between floors, and the height of its base.
+    columns: Option<(&'a Tiers, f64)>,
+}
+
+/// A column that can be struck.
+struct Standing<'a> {
+    column: PlanColumn,
+    at: PlanPoint,
+    kind: StandingIn<'a>,
+}
+
+/// What a column is part of.
+enum StandingIn<'a> {
+    /// A space frame, in which it has these sizes along both directions of lines.
+    Grid(&'a SpaceFrame, [f64; 2]),
+    /// A frame at a line, in which it has this depth; the first and the last of a storey can be struck there.
+    Line(&'a PlanFrame, f64, [bool; 2]),
+}
+
+impl Standing<'_> {
+    /// Its sizes along a normal out of the building and across it, if what moves against that normal strikes it \[m\].
+    fn size(&self, outward: PlanPoint) -> Option<[f64; 2]> {
+        match &self.kind {
+            StandingIn::Grid(frame, size) => Some(sizes_along(frame.direction, *size, outward)),
+            // A frame bends in its own plane, and its outer columns stand before the others.
+            StandingIn::Line(frame, depth, ends) => {
+                let along = dot(frame.direction, outward);
+                let is_before = (along < -ALONG && ends[0]) || (along > ALONG && ends[1]);
+                is_before.then_some([*depth, 0.0])
+            }
+        }
+    }
+}
+
+/// Columns of a storey, from 0.
+fn columns_of(tiers: &Tiers, storey: usize) -> Vec<Standing<'_>> {
+    let in_grid = tiers.space_frame.iter().flat_map(|frame| {
+        let members = frame.members.iter();
+        members.filter_map(move |member| {
+            let SpacePlace::Column { line, storey: own } = member.place else {
+                return None;
+            };
+            // Lines that do not exist are a fault of the building.
+            let [x, y] = line;
+            let is_inside = x < frame.lines_x.len() && y < frame.lines_y.len();
+            (own == storey && is_inside).then(|| Standing {
+                column: PlanColumn {
+                    line: ColumnLine::Crossing(line),
+                    storey,
+                },
+                at: frame.point(line),
+                kind: StandingIn::Grid(frame, member.section.size),
+            })
+        })
+    });
+    let in_frames = tiers.frames.iter().enumerate().flat_map(|(index, frame)| {
+        let lines = (0..frame.column_lines())
+            .filter(|line| frame.frame.column(storey, *line).is_some())
+            .collect::<Vec<_>>();
+        let ends = [lines.first(), lines.last()].map(|end| end.copied());
+        lines.into_iter().map(move |line| Standing {
+            column: PlanColumn {
+                line: ColumnLine::OfFrame([index, line]),
+                storey,
+            },
+            at: frame.line_at(line),
+            kind: StandingIn::Line(
+                frame,
+                frame.frame.depth_of_column([storey, line]),
+                ends.map(|end| end == Some(line)),
+            ),
+        })
+    });
+    in_grid.chain(in_frames).collect()
 }
 
 impl<'a> Side<'a> {
@@ -66,10 +142,9 @@ impl<'a> Side<'a> {
                     first: usize::from(mat.is_none()),
                     heights: heights.chain(building.floor_levels()).collect(),
                     plans: mat.into_iter().chain(floors).collect(),
-                    columns: tiers
-                        .space_frame
-                        .as_ref()
-                        .map(|frame| (frame, &tiers.storey_heights[..], building.base.elevation)),
+                    columns: building
+                        .has_columns_to_hit()
+                        .then_some((tiers, building.base.elevation)),
                 })
             }
             _ => None,
@@ -91,13 +166,17 @@ impl<'a> Side<'a> {
 impl Side<'_> {
     /// Storey of a height between floors, from 0, and how far above its lower floor it is \[m\].
     fn storey(&self, height: f64) -> Option<(usize, f64)> {
-        let (_, storey_heights, base) = self.columns?;
+        let (tiers, base) = self.columns?;
         let mut foot = base;
-        storey_heights.iter().enumerate().find_map(|(storey, own)| {
-            let above = height - foot;
-            foot += own;
-            (above > 0.0 && above < *own).then_some((storey, above))
-        })
+        tiers
+            .storey_heights
+            .iter()
+            .enumerate()
+            .find_map(|(storey, own)| {
+                let above = height - foot;
+                foot += own;
+                (above > 0.0 && above < *own).then_some((storey, above))
+            })
     }
 
     /// What a face at a height touches, a floor or columns of a storey, and the plan that bounds it there: that of the floor above.
@@ -296,34 +375,30 @@ impl Side<'_> {
         side: usize,
         storey: usize,
         contact: &PlanContact,
-    ) -> Vec<(SpacePlace, PlanFace)> {
-        let mut found: Vec<(SpacePlace, PlanFace)> = Vec::new();
-        let members = self.columns.iter().flat_map(|(frame, ..)| {
-            let members = frame.members.iter();
-            members.map(move |member| (frame, member))
-        });
-        for (frame, member) in members {
-            let SpacePlace::Column { line, storey: own } = member.place else {
-                continue;
-            };
+    ) -> Vec<(PlanColumn, PlanFace)> {
+        let mut found: Vec<(PlanColumn, PlanFace)> = Vec::new();
+        let columns = self.columns.iter();
+        for standing in columns.flat_map(|(tiers, _)| columns_of(tiers, storey)) {
             for face in faces {
-                // Lines that do not exist are a fault of the building.
-                let [x, y] = line;
-                let is_inside = x < frame.lines_x.len() && y < frame.lines_y.len();
-                if own != storey || !is_inside || face.kind != PlanContactKind::Face {
+                // Out of the building of the columns.
+                let outward = face
+                    .normal
+                    .map(|value| if side == 0 { value } else { -value });
+                let size = standing.size(outward);
+                let Some(size) = size.filter(|_| face.kind == PlanContactKind::Face) else {
                     continue;
-                }
-                let size = sizes_along(frame.direction, member.section.size, face.normal);
-                let Some(face) = face.at_column(side, frame.point(line), size, line) else {
+                };
+                let Some(face) = face.at_column(side, standing.at, size, standing.column.line)
+                else {
                     continue;
                 };
                 let is_near = face.points.iter().all(|point| point.gap <= contact.reach);
                 // Where two edges of one side meet, a column stands before both.
                 let is_new = found.iter().all(|(column, known)| {
-                    *column != member.place || dot(known.normal, face.normal) < SAME_SIDE
+                    *column != standing.column || dot(known.normal, face.normal) < SAME_SIDE
                 });
                 if is_near && is_new {
-                    found.push((member.place, face));
+                    found.push((standing.column, face));
                 }
             }
         }
@@ -346,7 +421,7 @@ impl PlanFace {
         side: usize,
         column: PlanPoint,
         size: [f64; 2],
-        line: [usize; 2],
+        line: ColumnLine,
     ) -> Option<Self> {
         let along = [-self.normal[1], self.normal[0]];
         let (first, last) = (self.points.first()?, self.points.last()?);
@@ -385,13 +460,14 @@ impl PlanFace {
 }
 
 /// Columns of a building that others can strike, and how far above the joint at their foot, by all gaps of a model \[m\].
-pub(crate) fn struck_columns(model: &Model, building: usize) -> BTreeMap<SpacePlace, Vec<f64>> {
-    let mut found: BTreeMap<SpacePlace, Vec<f64>> = BTreeMap::new();
-    let structure = model
-        .buildings
-        .get(building)
-        .map(|building: &Building| &building.structure);
-    if !matches!(structure, Some(Structure::Tiers(tiers)) if tiers.space_frame.is_some()) {
+pub(crate) fn struck_columns(model: &Model, building: usize) -> BTreeMap<PlanColumn, Vec<f64>> {
+    let mut found: BTreeMap<PlanColumn, Vec<f64>> = BTreeMap::new();
+    let structure = model.buildings.get(building);
+    let in_plan = |building: &&Building| matches!(building.structure, Structure::Tiers(_));
+    if !structure
+        .filter(in_plan)
+        .is_some_and(Building::has_columns_to_hit)
+    {
         return found;
     }
     for gap in &model.gaps {

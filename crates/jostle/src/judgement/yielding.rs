@@ -5,7 +5,7 @@ use crate::hysteresis::Hysteresis;
 use crate::interface::PlanPart;
 use crate::linear::sort_by;
 use crate::model::{
-    Building, Diagonal, DiagonalKind, FramePlace, Hinges, STANDARD_GRAVITY, SpacePlace, Structure,
+    Building, Diagonal, DiagonalKind, FramePlace, Hinges, PlanColumn, STANDARD_GRAVITY, Structure,
     capacity_rule_title,
 };
 use crate::results::summary::{BuildingSummary, ContactSummary, MemberSummary, RatioSummary};
@@ -144,16 +144,17 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
 
 /// Greatest moment over its capacity at struck points of columns that have no hinge there.
 pub(super) fn struck_bending(known: &Known<'_>, tally: &mut Tally<'_>) {
-    let hinged = |building: &BuildingSummary, place: MemberPlace| {
+    let hinged = |building: &BuildingSummary, of: &MemberSummary| {
+        let place = (of.frame.map(|frame| frame + 1), of.place);
         let mut hinges = building.hinges.list.iter();
-        hinges.any(
-            |hinge| matches!(hinge.at, Some(SpringPlace::Struck { member, .. }) if member == place),
-        )
+        hinges.any(|hinge| match hinge.at {
+            Some(SpringPlace::Struck { frame, member, .. }) => (frame, Some(member)) == place,
+            _ => false,
+        })
     };
     for (building, member, ratio) in struck(known) {
         let (times, place) = (ratio.bending, &ratio.bending_at);
-        let has_hinge = member.place.is_some_and(|place| hinged(building, place));
-        if !matches!(place.at, "below" | "above") || has_hinge {
+        if !matches!(place.at, "below" | "above") || hinged(building, member) {
             continue;
         }
         tally.add(times, || {
@@ -191,18 +192,16 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
             };
             let building = &summary.buildings[index];
             let column = struck_column(&known.model.buildings[index], contact, side);
+            let name = column.map(|column| format!("{}.{column}", building.name));
             let mut members = building.members.iter();
-            let member = members.find(|member| column.is_some() && member.place == column);
+            let member = members.find(|member| name.as_ref() == Some(&member.name));
             let rated = member.is_some_and(|member| member.ratio.is_some());
             if rated || building.shear_failures.is_some() {
                 continue;
             }
             let asked = f64::from(u8::from(member.is_some()));
             tally.add(1.0 + asked, || {
-                let name = match column {
-                    Some(column) => format!("{}.{column}", building.name),
-                    None => format!("a column of {}", quoted(&building.name)),
-                };
+                let name = name.unwrap_or_else(|| format!("a column of {}", quoted(&building.name)));
                 let text = format!(
                     "{name} is hit between floors, at {:.3} m, with up to {:.0} kN, and is not compared with its capacity",
                     contact.height_m,
@@ -214,8 +213,8 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// The column of a building that a contact between its floors strikes. `side`: that of the building.
-fn struck_column(model: &Building, contact: &ContactSummary, side: usize) -> Option<MemberPlace> {
+/// Name within its building of the column that a contact between floors strikes. `side`: that of the building.
+fn struck_column(model: &Building, contact: &ContactSummary, side: usize) -> Option<String> {
     let height = contact.height_m - model.base.elevation;
     let storey = model
         .floor_heights()
@@ -226,7 +225,11 @@ fn struck_column(model: &Building, contact: &ContactSummary, side: usize) -> Opt
         let PlanPart::Column(line) = in_plan.parts[side] else {
             return None;
         };
-        return Some(MemberPlace::InSpace(SpacePlace::Column { line, storey }));
+        let Structure::Tiers(tiers) = &model.structure else {
+            return None;
+        };
+        let frames = tiers.frames.iter().map(|frame| frame.name.clone());
+        return Some(PlanColumn { line, storey }.name(&frames.collect::<Vec<_>>()));
     }
     let Structure::Frame(frame) = &model.structure else {
         return None;
@@ -234,7 +237,7 @@ fn struck_column(model: &Building, contact: &ContactSummary, side: usize) -> Opt
     // What stands left of a gap is struck on its right face.
     let line = frame.outer_lines(storey + 1)?[1 - side] + 1;
     let storey = storey + 1;
-    Some(MemberPlace::Column { line, storey })
+    Some(MemberPlace::Column { line, storey }.to_string())
 }
 
 /// Columns that were struck between floors, and what they bear; not those that fail in this model, which bear no more than they can.

@@ -80,6 +80,14 @@ impl Frame {
         }
     }
 
+    /// Depth along the frame of the column or wall in a storey at a line, both counted from 0; 0 where it is not known \[m\].
+    #[must_use]
+    pub fn depth_of_column(&self, place: FramePlace) -> f64 {
+        let depth = self.column_depths.get(&place).copied();
+        self.wall(place)
+            .map_or(depth.unwrap_or(0.0), |wall| wall.length)
+    }
+
     /// All columns, storey by storey from the ground up, from left to right.
     pub fn all_columns(&self) -> impl Iterator<Item = (FramePlace, &Section)> {
         let places = (0..self.columns.len()).flat_map(|i| (0..self.lines()).map(move |j| [i, j]));

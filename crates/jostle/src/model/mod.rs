@@ -5,6 +5,7 @@
 
 mod base;
 mod capacity;
+mod cuts;
 mod diagonal;
 mod fibres;
 mod floor_matrices;
@@ -18,6 +19,7 @@ mod link_law;
 mod members;
 mod moment_surface;
 mod plan_bearings;
+mod plan_column;
 mod plan_foundation;
 mod plan_frame;
 mod plan_spring;
@@ -38,6 +40,7 @@ pub use capacity::{
     AcrossCapacity, CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity,
     ShearCapacity, capacity_rule_title,
 };
+pub(crate) use cuts::{cuts_at, equal_cuts, halves_of_segments};
 pub use diagonal::{
     Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Reach, Rise,
     StrutLine,
@@ -57,6 +60,7 @@ pub use isolation::{
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use moment_surface::MomentSurface;
+pub use plan_column::{ColumnLine, PlanColumn, PointOnColumn, PointsOnColumns};
 pub use plan_foundation::PlanFoundationSprings;
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
@@ -360,6 +364,9 @@ pub struct Frame {
     /// Rigid zones of joints, by floor and line from 0: how far from the axes beams on either side, and columns below and above, are
     /// rigid, ≥ 0; none where there is no entry: read [`Frame::rigid_zone`] \[m\].
     pub rigid_zones: BTreeMap<FramePlace, [f64; 2]>,
+    /// Depths of columns along the frame, by storey and line from 0, as far as a plan needs to know how far before their axes their faces
+    /// stand; 0 where there is no entry, > 0 \[m\].
+    pub column_depths: BTreeMap<FramePlace, f64>,
 }
 
 /// Cross-section of a member.
@@ -822,7 +829,7 @@ impl Building {
     pub fn has_columns_to_hit(&self) -> bool {
         match &self.structure {
             Structure::Frame(_) => true,
-            Structure::Tiers(tiers) => tiers.space_frame.is_some(),
+            Structure::Tiers(tiers) => tiers.space_frame.is_some() || !tiers.frames.is_empty(),
             Structure::Shear(_) | Structure::Given(_) => false,
         }
     }

@@ -1,6 +1,8 @@
 //! Where the bearings of an isolated building in plan stand.
 
-use super::{Base, LumpedFloor, PlanArea, PlanPoint, Tier, Tiers};
+use std::collections::BTreeMap;
+
+use super::{Base, LumpedFloor, PlanArea, PlanColumn, PlanPoint, Tier, Tiers};
 
 /// Radii of gyration of a plan closer than this share of each other have no principal axes of their own \[–\].
 const ALIKE: f64 = 1e-9;
@@ -21,19 +23,28 @@ impl Tiers {
     /// their masses.
     #[must_use]
     pub fn mat(&self, mass: f64) -> LumpedFloor {
-        self.plate(mass, self.lowest_plan())
+        self.plate(mass, self.lowest_plan(), &BTreeMap::new())
     }
 
     /// What carries the building and moves against the ground: a mat or a footing, spread evenly over the plan of the lowest floor, or
     /// a rectangular foundation about the centroid of that plan; `None` if it stands on the ground.
     #[must_use]
     pub fn carrier(&self, base: &Base) -> Option<LumpedFloor> {
+        self.carrier_with(base, &BTreeMap::new())
+    }
+
+    /// The same with points of columns that neighbours push, at these heights above the joints at their feet.
+    pub(crate) fn carrier_with(
+        &self,
+        base: &Base,
+        struck: &BTreeMap<PlanColumn, Vec<f64>>,
+    ) -> Option<LumpedFloor> {
         let plan = self.lowest_plan();
         let plan = match base.foundation {
             Some(foundation) => foundation.corners(PlanArea::new(&plan).centroid),
             None => plan,
         };
-        Some(self.plate(base.carrying_mass()?, plan))
+        Some(self.plate(base.carrying_mass()?, plan, struck))
     }
 
     fn lowest_plan(&self) -> Vec<PlanPoint> {
@@ -41,14 +52,20 @@ impl Tiers {
         plan.unwrap_or_default()
     }
 
-    fn plate(&self, mass: f64, plan: Vec<PlanPoint>) -> LumpedFloor {
+    fn plate(
+        &self,
+        mass: f64,
+        plan: Vec<PlanPoint>,
+        struck: &BTreeMap<PlanColumn, Vec<f64>>,
+    ) -> LumpedFloor {
         let area = PlanArea::new(&plan);
-        self.with_feet(&Tier {
+        let tier = Tier {
             mass,
             polar_mass: mass * area.gyration(),
             centre: area.centroid,
             plan,
-        })
+        };
+        self.with_feet(&tier, struck)
     }
 
     /// Places of the bearings: those given, otherwise four at c ± r₁e₁ ± r₂e₂, c, e and r being centroid, principal axes and radii of

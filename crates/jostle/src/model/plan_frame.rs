@@ -1,6 +1,11 @@
 //! Plane frames standing at lines of a plan, tied together by rigid floors.
 
-use super::{Base, Frame, FrameHinges, PlanArea, PlanPoint, Tier, Tiers};
+use std::collections::BTreeMap;
+
+use super::cuts::halves_of_segments;
+use super::{
+    Base, Frame, FrameHinges, PlanArea, PlanColumn, PlanPoint, PointsOnColumns, Tier, Tiers,
+};
 
 /// Column lines closer than this stand at one point \[m\].
 const SAME_POINT: f64 = 0.01;
@@ -123,11 +128,14 @@ impl PlanFrame {
     /// Whether columns have lumped masses between floors.
     #[must_use]
     pub fn has_masses_between_floors(&self) -> bool {
-        let heavy = self
-            .frame
-            .all_columns()
-            .any(|(_, candidate)| candidate.line_mass > 0.0);
-        heavy && self.frame.column_segments > 1
+        let storeys = self.frame.storey_heights.len();
+        let columns = self.frame.all_columns();
+        let mut columns =
+            columns.filter(|([storey, _], column)| *storey < storeys && column.line_mass > 0.0);
+        columns.any(|(place, _)| {
+            let cuts = self.frame.column_cuts(place, std::iter::empty());
+            !cuts.is_empty()
+        })
     }
 
     /// Whether columns, beams or walls may crack or yield, or diagonals yield or lift off.
@@ -197,19 +205,31 @@ impl Tiers {
     /// frames share counts once.
     #[must_use]
     pub fn lumped_floors(&self) -> Vec<LumpedFloor> {
-        let masses = self.level_masses();
+        self.lumped_floors_with(&BTreeMap::new())
+    }
+
+    /// The same with points of columns that neighbours push, at these heights above the joints at their feet, and that move by themselves.
+    pub(crate) fn lumped_floors_with(
+        &self,
+        struck: &BTreeMap<PlanColumn, Vec<f64>>,
+    ) -> Vec<LumpedFloor> {
+        let masses = self.level_masses(struck);
         let floors = self.floors.iter().zip(&masses[1..]);
         floors.map(|(floor, masses)| masses.on(floor)).collect()
     }
 
     /// A mat with the masses of the feet of frames that stand on it. As floors, they take half of the lowest segments of columns, and
     /// their share of what columns move out of the plane of their frame.
-    pub(super) fn with_feet(&self, mat: &Tier) -> LumpedFloor {
-        self.level_masses()[0].on(mat)
+    pub(super) fn with_feet(
+        &self,
+        mat: &Tier,
+        struck: &BTreeMap<PlanColumn, Vec<f64>>,
+    ) -> LumpedFloor {
+        self.level_masses(struck)[0].on(mat)
     }
 
     /// Point masses of frames on what they stand, then on every floor.
-    fn level_masses(&self) -> Vec<FloorMasses> {
+    fn level_masses(&self, struck: &BTreeMap<PlanColumn, Vec<f64>>) -> Vec<FloorMasses> {
         let shared = self.shared_columns();
         let mut masses = vec![FloorMasses::default(); 1 + self.floors.len()];
         for (index, frame) in self.frames.iter().enumerate() {
@@ -221,40 +241,10 @@ impl Tiers {
                 let mut columns = shared.iter();
                 columns.any(|column| column.lines.contains(&[index, line]))
             };
-            frame.add_masses(&mut masses, doubled, crossed);
+            let points = self.points_in_frame(struck, index);
+            frame.add_masses(&mut masses, &points, doubled, crossed);
         }
         masses
-    }
-
-    /// Total mass of the columns between floors, which the floors do not include, counted once \[kg\].
-    #[must_use]
-    pub fn mass_between_floors(&self) -> f64 {
-        let shared = self.shared_columns();
-        let frames = self.frames.iter().enumerate();
-        frames
-            .map(|(index, frame)| {
-                let lines = (0..frame.column_lines()).filter(|line| {
-                    let mut columns = shared.iter();
-                    !columns.any(|column| column.lines[1] == [index, *line])
-                });
-                let k = frame.frame.column_segments as f64;
-                let storeys = frame.frame.storey_heights.iter().enumerate();
-                let of_line = |line: usize| -> f64 {
-                    let columns = storeys.clone();
-                    let columns = columns.filter_map(|(storey, height)| {
-                        Some((frame.frame.column(storey, line)?, height))
-                    });
-                    columns
-                        .map(|(section, height)| section.line_mass * height * (k - 1.0) / k)
-                        .sum()
-                };
-                if frame.frame.is_regular() {
-                    // All equal to the last bit.
-                    return of_line(0) * lines.count() as f64;
-                }
-                lines.map(of_line).sum::<f64>()
-            })
-            .sum()
     }
 
     /// Sum over the frames of a storey, counted from 0, of rᵀr, r being the motion of a line by a displacement of the floor, with
@@ -286,11 +276,12 @@ struct FloorMasses([Vec<(f64, PlanPoint)>; 3]);
 const BOTH_WAYS: usize = 0;
 
 impl PlanFrame {
-    /// Adds its lumped masses to those of the levels, the first of which is what it stands on. `doubled`: column lines that another frame counts; `crossed`: those that
-    /// another frame holds out of the plane of this one.
+    /// Adds its lumped masses to those of the levels, the first of which is what it stands on. `points`: of its columns, that move by
+    /// themselves; `doubled`: column lines that another frame counts; `crossed`: those that another frame holds out of the plane of this one.
     fn add_masses(
         &self,
         levels: &mut [FloorMasses],
+        points: &PointsOnColumns,
         doubled: impl Fn(usize) -> bool,
         crossed: impl Fn(usize) -> bool,
     ) {
@@ -302,7 +293,6 @@ impl PlanFrame {
         } else {
             1
         };
-        let k = frame.column_segments.max(1);
         for storey in 0..frame.storey_heights.len().min(levels.len() - 1) {
             let (below, above) = (storey, storey + 1);
             let columns = frame.columns_in(storey);
@@ -315,6 +305,9 @@ impl PlanFrame {
                 let [foot_mass, head_mass] = [foot, head].map(|length| length * column.line_mass);
                 let height = frame.storey_heights[storey];
                 let column = column.line_mass * (height - foot - head);
+                let points = points.get(&[storey, line]).into_iter().flatten();
+                let cuts = frame.column_cuts([storey, line], points.map(|point| point.above));
+                let halves = halves_of_segments(0.5 * column, &cuts);
                 let at = self.point_at(*along);
                 let mut add = |level: usize, kind: usize, mass: f64| {
                     if mass > 0.0 {
@@ -322,19 +315,18 @@ impl PlanFrame {
                     }
                 };
                 if !doubled(line) {
-                    let end = 0.5 * column / k as f64;
-                    add(below, BOTH_WAYS, end + foot_mass);
-                    add(above, BOTH_WAYS, end + head_mass);
+                    add(below, BOTH_WAYS, halves[0] + foot_mass);
+                    add(above, BOTH_WAYS, halves[cuts.len()] + head_mass);
                 }
                 let floor_mass = frame.floor_mass.get(storey).copied();
                 let joint = floor_mass.unwrap_or(0.0) / columns as f64;
                 add(above, BOTH_WAYS, joint);
                 if !crossed(line) {
-                    for cut in 1..k {
-                        let share = cut as f64 / k as f64;
+                    for (share, mass) in cuts.iter().zip(halves.windows(2)) {
                         let share = share + (foot - share * (foot + head)) / height;
-                        add(below, out_of_plane, (1.0 - share) * column / k as f64);
-                        add(above, out_of_plane, share * column / k as f64);
+                        let mass = mass[0] + mass[1];
+                        add(below, out_of_plane, (1.0 - share) * mass);
+                        add(above, out_of_plane, share * mass);
                     }
                 }
             }

@@ -61,6 +61,7 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
             MemberSummary {
                 name: member_name(building, member),
                 place: Some(member.place),
+                frame: member.frame,
                 shared_column: member.shared.clone(),
                 ends: ends.iter().map(|end| section(member, end)).collect(),
                 struck: struck
@@ -163,7 +164,9 @@ fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f6
         });
         if here {
             let gap = &run.model.gaps[contact.gap];
-            let impacts = counted_impacts(index, gap, run);
+            // All points of a face before it have impacts together.
+            let reported = contact.plan.map_or(index, |place| place.face);
+            let impacts = counted_impacts(reported, gap, run);
             count += impacts.len();
             force = impacts
                 .iter()

@@ -7,7 +7,7 @@ use super::in_plan::{
 use crate::contact::{ForceLaw, LawKind};
 use crate::history::{Extreme, Impact, Kind, Owner};
 use crate::hysteresis::{Side, Stage};
-use crate::interface::LinkElement;
+use crate::interface::{Contact, LinkElement, PlanPart};
 use crate::linear::sort_by;
 use crate::model::{Gap, LinkLaw, Model, Solver};
 use crate::motion::GroundMotion;
@@ -466,11 +466,26 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
     }
 }
 
-pub(super) fn counted_impacts(index: usize, gap: &Gap, run: &Run) -> Vec<CountedImpact> {
-    let gap_impacts = impacts_of(run.system, run.outcome, index);
+/// Impacts of a reported contact: a face with all its points, or one contact in one plane.
+pub(super) fn counted_impacts(reported: usize, gap: &Gap, run: &Run) -> Vec<CountedImpact> {
+    let gap_impacts = impacts_of(run.system, run.outcome, reported);
     let mut impacts: Vec<&Impact> = gap_impacts.iter().collect();
     sort_by(&mut impacts, |a, b| a.start.total_cmp(&b.start));
     counted(impacts, gap.minimum_separation)
+}
+
+/// Name of the line of the column that a contact strikes, if it does.
+fn struck_column(contact: &Contact, system: &System) -> Option<String> {
+    let parts = contact.plan?.parts;
+    let mut sides = contact.ports.0.iter().zip(parts);
+    sides.find_map(|(port, part)| {
+        let building = system.buildings.get(port.as_ref()?.building)?;
+        let frames = &building.discretization.frames;
+        match part {
+            PlanPart::Column(line) => Some(line.name(frames)),
+            PlanPart::Edge(_) | PlanPart::Corner(_) => None,
+        }
+    })
 }
 
 fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> ContactSummary {
@@ -508,6 +523,7 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
                     .map(|_| SlidingSummary::new(all())),
                 ..place
             }),
+        struck_column: struck_column(contact, system),
         width_m: width,
         crushed_depth_m: matches!(contact.law, ForceLaw::Crushing(_)).then(|| {
             let depths = points.iter();

@@ -2,7 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::{LumpedFloor, SpaceFrame, SpacePlace};
+use crate::linear::Row;
+use crate::model::{
+    ColumnLine, Frame, LumpedFloor, PlanColumn, PointOnColumn, PointsOnColumns, SpaceFrame,
+    SpacePlace,
+};
 
 /// Where neighbours can strike a building between its floors, or links end.
 ///
@@ -17,8 +21,46 @@ use crate::model::{LumpedFloor, SpaceFrame, SpacePlace};
 pub struct StruckPoints {
     /// Heights above the base on the left and on the right face of a building in one plane \[m\].
     pub faces: [Vec<f64>; 2],
-    /// Heights above the joint at the foot of columns of a space frame \[m\].
-    pub columns: BTreeMap<SpacePlace, Vec<f64>>,
+    /// Heights above the joint at the foot of columns of a building with a plan \[m\].
+    pub columns: BTreeMap<PlanColumn, Vec<f64>>,
+}
+
+impl StruckPoints {
+    /// Those on the faces of a plane frame, by the columns that stand there.
+    pub(super) fn on_outer_columns(&self, frame: &Frame) -> PointsOnColumns {
+        let mut found = PointsOnColumns::new();
+        let mut top = 0.0;
+        for (storey, height) in frame.storey_heights.iter().enumerate() {
+            top += height;
+            for (heights, line) in self
+                .faces
+                .iter()
+                .zip(frame.outer_lines(storey + 1).into_iter().flatten())
+            {
+                let points = heights.iter().map(|point| PointOnColumn {
+                    above: point - top + height,
+                    is_pushed: true,
+                });
+                found.entry([storey, line]).or_default().extend(points);
+            }
+        }
+        found
+    }
+}
+
+/// A point of a column of a building with a plan between its floors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointNode {
+    /// Its column.
+    pub column: PlanColumn,
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// Its mass \[kg\].
+    pub mass: f64,
+    /// Its displacements along x and across, over those of nodes.
+    pub moved: [Row; 2],
+    /// The node that moves with it alone.
+    pub node: usize,
 }
 
 /// Points of one column closer than this coincide \[m\].
@@ -51,8 +93,16 @@ impl ColumnPoints {
     pub(super) fn new(
         frame: &SpaceFrame,
         storey_heights: &[f64],
-        struck: &BTreeMap<SpacePlace, Vec<f64>>,
+        struck: &BTreeMap<PlanColumn, Vec<f64>>,
     ) -> Self {
+        let in_grid = struck.iter().filter_map(|(column, heights)| {
+            let ColumnLine::Crossing(line) = column.line else {
+                return None;
+            };
+            let storey = column.storey;
+            Some((SpacePlace::Column { line, storey }, heights.clone()))
+        });
+        let struck: BTreeMap<SpacePlace, Vec<f64>> = in_grid.collect();
         let mut heights = struck.clone();
         for (column, above) in frame.ends_of_struts(storey_heights) {
             heights.entry(column).or_default().push(above);
@@ -113,7 +163,7 @@ impl ColumnPoints {
 }
 
 /// Floors without the mass that points of columns carry in their place, spread as that of the floor.
-pub(crate) fn lightened(floors: &mut [LumpedFloor], taken: &[f64]) {
+pub(super) fn lightened(floors: &mut [LumpedFloor], taken: &[f64]) {
     for (floor, taken) in floors.iter_mut().zip(taken) {
         let tier = &mut floor.tier;
         tier.polar_mass *= 1.0 - taken / tier.mass;

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::column_ends::FibreSection;
-use super::column_points::StruckPoints;
-use super::cuts::{cut_at, cut_exactly, cuts_at, equal_cuts};
+use super::column_points::{PointNode, StruckPoints};
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::frame_walls::InFrame;
@@ -19,8 +18,8 @@ use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
     Base, Building, CouplingBeam, Frame, FrameHinges, FrameWall, Given, Hinges, Isolation, Joint,
-    ProportionalDamping, Section, SharedColumn, Shear, ShearEnds, ShearSpring, SpaceWall,
-    Structure, Wall,
+    LumpedFloor, PointsOnColumns, ProportionalDamping, Section, SharedColumn, Shear, ShearEnds,
+    ShearSpring, SpaceWall, Structure, Wall, cuts_at, equal_cuts, halves_of_segments,
 };
 
 /// A stick model and where its floors and faces are. The default has no nodes.
@@ -54,6 +53,12 @@ pub struct Discretization {
     pub coupling_beams: Vec<InFrame<CouplingBeam>>,
     /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].
     pub centres: Vec<[f64; 2]>,
+    /// What carries a building with a plan, if that moves, and its floors, with the masses that move with them.
+    pub carrier: Option<LumpedFloor>,
+    /// The floors of a building with a plan, from the ground up.
+    pub lumped: Vec<LumpedFloor>,
+    /// Points of columns of a building with a plan between its floors that move by themselves.
+    pub points: Vec<PointNode>,
     /// Names of the frames that stand in a plan.
     pub frames: Vec<String>,
     /// Columns that two of these frames share.
@@ -100,8 +105,8 @@ impl Discretization {
                     Some(Hinges::Frame(hinges)) => hinges,
                     _ => &FrameHinges::default(),
                 };
-                let faces = points.faces.each_ref().map(|heights| &heights[..]);
-                discretize_frame(frame, &building.base, hinges, faces)
+                let points = points.on_outer_columns(frame);
+                discretize_frame(frame, &building.base, hinges, &points)
             }
             Structure::Shear(shear) => {
                 let springs: &[Hysteresis] = match &building.hinges {
@@ -312,16 +317,7 @@ impl StickModel {
             .map(|share| self.add_node(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)))
             .collect();
         let half_mass = 0.5 * line_mass * libm::hypot(b.x - a.x, b.y - a.y);
-        let segments = cuts.len() + 1;
-        let starts = std::iter::once(0.0).chain(cuts.iter().copied());
-        let half_masses: Vec<f64> = if *cuts == equal_cuts(segments) {
-            // All equal to the last bit.
-            vec![half_mass / segments as f64; segments]
-        } else {
-            let ends = cuts.iter().copied().chain([1.0]);
-            let lengths = starts.zip(ends);
-            lengths.map(|(a, b)| half_mass * (b - a)).collect()
-        };
+        let half_masses = halves_of_segments(half_mass, cuts);
         let line: Vec<usize> = std::iter::once(from)
             .chain(interior.iter().copied())
             .chain([to])
@@ -466,7 +462,7 @@ pub(super) fn discretize_frame(
     frame: &Frame,
     base: &Base,
     hinges: &FrameHinges,
-    points: [&[f64]; 2],
+    points: &PointsOnColumns,
 ) -> Discretization {
     let mut stick_model = StickModel::default();
     let lines = frame.line_positions();
@@ -591,20 +587,12 @@ pub(super) fn discretize_frame(
                     });
                 }
             }
-            let clear_height = storey_height - rigid[0] - rigid[1];
-            let mut cuts = equal_cuts(frame.column_segments);
-            let ports = is_outer.into_iter().zip(points);
-            let pushed = ports.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p);
-            let pushed: Vec<f64> = pushed
-                .map(|point| (point - height + storey_height - rigid[0]) / clear_height)
+            let points = points.get(&[storey, line]).into_iter().flatten();
+            let cuts = frame.column_cuts([storey, line], points.clone().map(|point| point.above));
+            let pushed: Vec<f64> = points
+                .filter(|point| point.is_pushed)
+                .map(|point| frame.share_of_column([storey, line], point.above))
                 .collect();
-            for &share in &pushed {
-                cut_at(&mut cuts, share, 0.25 / frame.column_segments as f64);
-            }
-            // Struts end exactly where they are said to.
-            for above in frame.ends_of_struts([storey, line]) {
-                cut_exactly(&mut cuts, (above - rigid[0]) / clear_height);
-            }
             let first = stick_model.members.len();
             let interior = stick_model.add_line(
                 ends[0],
@@ -636,6 +624,7 @@ pub(super) fn discretize_frame(
                 stick_model.members[first + at + 1].ends[0] = above;
                 let (line, storey) = (line + 1, storey + 1);
                 discretization.spring_places.push(SpringPlace::Struck {
+                    frame: None,
                     member: MemberPlace::Column { line, storey },
                     axis: None,
                     point: point + 1,

@@ -343,11 +343,16 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
     let sway = foundation.and_then(|foundation| path.dof(foundation.node, X));
     let single = stick_model.single_springs().map(|single_spring| {
         let row = stick_model.carried_row(&single_spring.row);
-        // What it pushes along x against the ground, or the foundation.
+        // What it pushes along x against the ground or the foundation: as much as everything else the other way. Not every row has a place
+        // at the ground.
         let pushed = element::places(&row).map(|(place, share)| {
-            let along = stick_model.influence(place).along;
-            let stands = place.1 == X && path.dof(place.0, place.1) == sway;
-            if stands { -share * along } else { 0.0 }
+            let along = share * stick_model.influence(place).along;
+            let dof = path.dof(place.0, place.1);
+            match sway {
+                Some(_) if dof == sway && place.1 == X => -along,
+                None if dof.is_some() => along,
+                _ => 0.0,
+            }
         });
         YieldingSpring {
             in_base_shear: pushed.sum(),

@@ -347,7 +347,10 @@ impl MemberForces {
                 let node = cuts.elements[element].ends[0];
                 let dof = building.equations.horizontal(node);
                 let is_column = matches!(member.place, MemberPlace::Column { .. });
-                if is_column && dof.is_some_and(&struck) {
+                // A column that two frames share is pushed along one, and bends in both.
+                let mut points = building.discretization.points.iter();
+                let is_point = points.any(|point| point.node == node);
+                if is_column && (is_point || dof.is_some_and(&struck)) {
                     places.push((SectionAt::Below, element - 1, 1));
                     places.push((SectionAt::Above, element, 0));
                 }
@@ -392,13 +395,13 @@ impl MemberForces {
             };
             let [first, second] = column.lines.map(storeys_of);
             for (a, b) in first.into_iter().zip(second) {
-                for end in 0..2 {
+                for at in 0..self.members[a].sections.len() {
                     let [of_a, of_b] =
-                        [a, b].map(|member| self.members[member].sections[end].forms[0]);
+                        [a, b].map(|member| self.members[member].sections[at].forms[0]);
                     let sum = self.forms[of_a].plus(&self.forms[of_b]);
                     self.forms.push(sum);
                     for member in [a, b] {
-                        self.members[member].sections[end].forms[0] = self.forms.len() - 1;
+                        self.members[member].sections[at].forms[0] = self.forms.len() - 1;
                     }
                 }
                 for member in [a, b] {
@@ -618,6 +621,7 @@ impl<'a> Cuts<'a> {
                 Some(SpringPlace::Column { storey, line, end })
             }
             (column @ MemberPlace::Column { .. }, None) => Some(SpringPlace::Struck {
+                frame: None,
                 member: column,
                 axis: None,
                 point: self.hinges_up_to(member, element + side),

@@ -3,7 +3,6 @@
 mod assembled_building;
 mod column_ends;
 mod column_points;
-mod cuts;
 mod diagonals;
 mod discretization;
 pub(crate) mod element;
@@ -34,8 +33,7 @@ mod wall_forces;
 
 pub use assembled_building::AssembledBuilding;
 pub use column_ends::FibreSection;
-pub use column_points::StruckPoints;
-pub(crate) use column_points::lightened;
+pub use column_points::{PointNode, StruckPoints};
 pub use diagonals::FrameDiagonal;
 pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};
@@ -51,7 +49,7 @@ pub use member_forces::{
 };
 pub use order::{Stage, Turn};
 pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
-pub use space_joints::{JointNodes, JointedFrame, JointedMember, JointedPart, PointNode};
+pub use space_joints::{JointNodes, JointedFrame, JointedMember, JointedPart};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{

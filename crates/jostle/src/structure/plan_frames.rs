@@ -1,8 +1,10 @@
 //! Plane frames at lines of a plan, as lumped masses and massless elements tied to rigid floors.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::column_ends::FibreSection;
+use super::column_points::PointNode;
 use super::diagonals::FrameDiagonal;
 use super::discretization::{Discretization, discretize_frame};
 use super::element::{THETA, X, Y, index_of, over_nodes};
@@ -11,18 +13,24 @@ use super::member_forces::FrameMember;
 use super::order::Turn;
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, RigidEnd, StickModel, Support};
+use super::tiers::motion_at;
 use crate::linear::Row;
 use crate::model::{
-    Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, SharedColumn, Tiers,
+    ColumnLine, Frame, LEVEL_TOLERANCE, LumpedFloor, PlanColumn, PlanFrame, PlanPoint,
+    PointsOnColumns, SharedColumn, Tiers,
 };
+
+/// Cosines of angles below this count as zero: frames at right angles \[–\].
+const PARALLEL: f64 = 1e-9;
 
 /// Adds the frames of a building, whose ground, mat and floors are the nodes of the stick model so far. Feet are tied to the mat, if
 /// there is one, as joints are to floors.
 ///
 /// Frames are eliminated one beside the other, and a floor after all joints at its height. `carry_weight`: their columns carry the
-/// floors' own masses.
+/// floors' own masses. `struck`: heights on columns above their feet at which neighbours push them.
 pub(super) fn add_frames(
     tiers: &Tiers,
+    struck: &BTreeMap<PlanColumn, Vec<f64>>,
     lumped: &[LumpedFloor],
     mat: Option<(usize, &LumpedFloor)>,
     carry_weight: bool,
@@ -37,9 +45,10 @@ pub(super) fn add_frames(
     let first_place = sticks.hinges.len();
     let shared = tiers.shared_columns();
     let (mut hinge_places, mut shear_places) = (Vec::new(), Vec::new());
-    let mut diagonal_places = Vec::new();
+    let (mut diagonal_places, mut struck_points) = (Vec::new(), Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
-        let mut discretized = discretize(plan_frame, &plan_frame.frame);
+        let points = tiers.points_in_frame(struck, index);
+        let mut discretized = discretize(plan_frame, &plan_frame.frame, &points);
         if carry_weight {
             carry_floors(tiers, &shared, index, &mut discretized.stick_model);
         }
@@ -47,7 +56,7 @@ pub(super) fn add_frames(
         for column in without_columns.column_sections_mut() {
             column.line_mass = 0.0;
         }
-        let light = discretize(plan_frame, &without_columns).stick_model;
+        let light = discretize(plan_frame, &without_columns, &points).stick_model;
         let doubled: Vec<f64> = (0..plan_frame.column_lines())
             .filter(|line| {
                 shared
@@ -75,6 +84,12 @@ pub(super) fn add_frames(
         shear_places.extend(shear);
         diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
         let first_node = sticks.nodes.len();
+        let levels: Vec<_> = std::iter::once(mat)
+            .chain(floors.iter().copied().zip(lumped).map(Some))
+            .map(|level| level.map(|(node, floor)| (node, floor.tier.centre)))
+            .collect();
+        let nodes = (&discretized.stick_model.nodes[..], first_node);
+        struck_points.extend(points_of((index, plan_frame), &points, nodes, &levels));
         let before = [sticks.yielding.len(), sticks.surfaces.len()];
         let elements = sticks.append(discretized.stick_model, &place);
         let [along, across, _] = plan_frame.shares(plan_frame.at);
@@ -131,11 +146,122 @@ pub(super) fn add_frames(
         .iter()
         .map(|frame| frame.name.clone())
         .collect();
+    discretization
+        .points
+        .extend(joined(&struck_points, &shared));
     discretization.shared_columns = shared;
 }
 
-fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
-    discretize_frame(frame, &plan_frame.base, &plan_frame.hinges, [&[], &[]])
+fn discretize(plan_frame: &PlanFrame, frame: &Frame, points: &PointsOnColumns) -> Discretization {
+    discretize_frame(frame, &plan_frame.base, &plan_frame.hinges, points)
+}
+
+/// A point of a column of a frame at a line that moves by itself.
+struct Point {
+    column: [usize; 2],
+    storey: usize,
+    height: f64,
+    mass: f64,
+    /// Direction of the frame.
+    direction: [f64; 2],
+    node: usize,
+    /// How it moves at a right angle to the frame, counter-clockwise, if no other frame holds it: with the floors, in proportion to the
+    /// distance from them.
+    with_floors: Row,
+}
+
+/// Points of the columns of a frame. `nodes`: those of the frame, the first of which becomes `first_node`; `levels`: nodes and centres of
+/// what it stands on and of all floors.
+fn points_of(
+    (index, plan_frame): (usize, &PlanFrame),
+    points: &PointsOnColumns,
+    (nodes, first_node): (&[Node], usize),
+    levels: &[Option<(usize, PlanPoint)>],
+) -> Vec<Point> {
+    let [d_x, d_y, _] = plan_frame.shares(plan_frame.at);
+    let heights = &plan_frame.frame.storey_heights;
+    let lines = plan_frame.frame.line_positions();
+    let all = points.iter().flat_map(|(place, points)| {
+        let heights = points.iter().map(|point| point.above);
+        heights.map(move |above| (*place, above))
+    });
+    let found = all.filter_map(|([storey, line], above)| {
+        let height = heights[..storey].iter().sum::<f64>() + above;
+        // What stands beside it beyond a hinge comes later.
+        let node = nodes.iter().position(|node| {
+            (node.x - lines[line]).abs() + (node.y - height).abs() <= LEVEL_TOLERANCE
+        })?;
+        let at = plan_frame.line_at(line);
+        let share = above / heights[storey];
+        let shares = [(levels[storey], 1.0 - share), (levels[storey + 1], share)];
+        let shares = shares
+            .into_iter()
+            .filter_map(|(level, share)| Some((level?, share)));
+        let with_floors = shares.flat_map(|((floor, centre), share)| {
+            let [x, y, _] = motion_at(at, centre);
+            [X, Y, THETA].map(|component| {
+                let moved = d_x * y[component] - d_y * x[component];
+                ((floor, component), share * moved)
+            })
+        });
+        Some(Point {
+            column: [index, line],
+            storey,
+            height,
+            mass: nodes[node].inertia[X],
+            direction: [d_x, d_y],
+            node: first_node + node,
+            with_floors: over_nodes(with_floors.filter(|(_, share)| *share != 0.0)),
+        })
+    });
+    found.collect()
+}
+
+/// Points as they move in plan: along their frame as their nodes, across it with the other frame that has the column, or with the floors.
+fn joined(points: &[Point], shared: &[SharedColumn]) -> Vec<PointNode> {
+    let along = |point: &Point| Row::single(index_of((point.node, X)));
+    let moved = |point: &Point| {
+        let [d_x, d_y] = point.direction;
+        let other = points.iter().find(|other| {
+            let mut columns = shared.iter();
+            let is_one = columns.any(|column| {
+                column.lines == [point.column, other.column]
+                    || column.lines == [other.column, point.column]
+            });
+            let turned = d_x * other.direction[0] + d_y * other.direction[1];
+            is_one
+                && turned.abs() <= PARALLEL
+                && other.storey == point.storey
+                && (other.height - point.height).abs() <= LEVEL_TOLERANCE
+        });
+        let across = match other {
+            Some(other) => along(other).times(d_x * other.direction[1] - d_y * other.direction[0]),
+            None => point.with_floors.clone(),
+        };
+        let along = along(point);
+        [
+            sum([(d_x, &along), (-d_y, &across)]),
+            sum([(d_y, &along), (d_x, &across)]),
+        ]
+    };
+    let nodes = points.iter().map(|point| PointNode {
+        column: PlanColumn {
+            line: ColumnLine::OfFrame(point.column),
+            storey: point.storey,
+        },
+        height: point.height,
+        mass: point.mass,
+        moved: moved(point),
+        node: point.node,
+    });
+    nodes.collect()
+}
+
+/// Rows times factors, which may be zero.
+fn sum(parts: [(f64, &Row); 2]) -> Row {
+    let parts = parts.into_iter().filter(|(factor, _)| *factor != 0.0);
+    let parts = parts.map(|(factor, row)| row.times(factor));
+    parts.reduce(|a, b| a.plus(&b)).unwrap_or_default()
 }
 
 /// Lets the joints of a frame carry the floors' own masses: every column that reaches a floor has an equal share. What frames carry by

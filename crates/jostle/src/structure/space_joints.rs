@@ -9,6 +9,7 @@
 use std::ops::Range;
 
 use super::column_ends::FibreSection;
+use super::column_points::PointNode;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of, over_nodes};
 use super::member_forces::MemberPlace;
 use super::order::{Stage, Turn};
@@ -17,7 +18,8 @@ use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Influence, Node, StickModel, Support, YieldingElement};
 use crate::linear::Row;
 use crate::model::{
-    PlanAxis, ProportionalDamping, STANDARD_GRAVITY, ShearEnds, SpaceFrame, SpaceMember, SpacePlace,
+    ColumnLine, PlanAxis, PlanColumn, ProportionalDamping, STANDARD_GRAVITY, ShearEnds, SpaceFrame,
+    SpaceMember, SpacePlace,
 };
 
 /// A column or a beam of a space frame with hinges, and its elements in the stick model.
@@ -39,7 +41,7 @@ pub struct JointedMember {
 /// A part of a member.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointedPart {
-    /// The point of the column at its upper end, as an index of [`JointedFrame::points`]; `None` at a joint.
+    /// The point of the column at its upper end, as an index of [`crate::structure::Discretization::points`]; `None` at a joint.
     pub point: Option<usize>,
     /// Its length, without rigid ends \[m\].
     pub length: f64,
@@ -49,19 +51,6 @@ pub struct JointedPart {
     pub bending: [Option<usize>; 2],
     /// Diagonals that end at the upper end of a part which keeps its length, and what it bears of the tension of each.
     pub diagonals: Row,
-}
-
-/// A point of a column between floors that moves by itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointNode {
-    /// Its column.
-    pub column: SpacePlace,
-    /// Height above the base \[m\].
-    pub height: f64,
-    /// Its mass \[kg\].
-    pub mass: f64,
-    /// The node of its displacements along and across.
-    pub node: usize,
 }
 
 /// A joint of a space frame with hinges.
@@ -82,16 +71,13 @@ pub struct JointedFrame {
     pub members: Vec<JointedMember>,
     /// Its joints, floor by floor.
     pub joints: Vec<JointNodes>,
-    /// Points of its columns between floors that move by themselves.
-    pub points: Vec<PointNode>,
-    /// Mass of every floor that these carry in its place; empty without any \[kg\].
-    pub taken: Vec<f64>,
 }
 
 /// A space frame in a stick model, with the places of its hinges and fibres.
 #[derive(Default)]
 pub(super) struct AddedJoints {
     pub(super) frame: JointedFrame,
+    pub(super) points: Vec<PointNode>,
     pub(super) places: Vec<SpringPlace>,
     pub(super) sections: Vec<FibreSection>,
     /// Elongations of its diagonals, in their order, and of the lines between the joints of their bays.
@@ -157,10 +143,6 @@ pub(super) fn add_space_joints(
     });
     let elongations = elongations.collect();
     let points = builder.point_list();
-    let taken = match points.is_empty() {
-        true => Vec::new(),
-        false => builder.assembly.points.taken,
-    };
     let (mut places, sections) = (builder.places, builder.sections);
     // Hinges come before all else that yields.
     let fibres = sections.iter().filter(|section| !section.is_surface());
@@ -170,12 +152,8 @@ pub(super) fn add_space_joints(
     builder.sticks.yielding.extend(shear);
     sticks.space_ends = first_end..sticks.nodes.len();
     AddedJoints {
-        frame: JointedFrame {
-            members,
-            joints,
-            points,
-            taken,
-        },
+        frame: JointedFrame { members, joints },
+        points,
         places,
         sections,
         elongations,
@@ -564,6 +542,7 @@ impl Builder<'_> {
                 };
                 self.sticks.hinges.push(Hinge::yielding(both, hysteresis));
                 self.places.push(SpringPlace::Struck {
+                    frame: None,
                     member: MemberPlace::InSpace(member.place),
                     axis: Some(PlanAxis::BOTH[plane]),
                     point: index + 1,
@@ -694,9 +673,13 @@ impl Builder<'_> {
     fn point_list(&self) -> Vec<PointNode> {
         let all = self.assembly.points.all.iter().zip(&self.points);
         let points = all.map(|(point, nodes)| PointNode {
-            column: point.column,
+            column: PlanColumn {
+                line: ColumnLine::Crossing(point.column.crossings()[0]),
+                storey: point.column.storey(),
+            },
             height: self.sticks.nodes[nodes.moving].y,
             mass: point.mass,
+            moved: [X, Y].map(|component| Row::single(index_of((nodes.moving, component)))),
             node: nodes.moving,
         });
         points.collect()

@@ -180,7 +180,10 @@ impl MemberForces {
                 ),
             ];
             for (index, part) in member.parts.iter().enumerate() {
-                let Some(point) = part.point.map(|point| frame.points[point]) else {
+                let Some(point) = part
+                    .point
+                    .map(|point| &building.discretization.points[point])
+                else {
                     continue;
                 };
                 let dofs = building.horizontal_dofs(point.node);
@@ -340,6 +343,7 @@ impl JointedCuts<'_> {
                 _ => PlanAxis::X,
             };
             let struck = |point: usize| SpringPlace::Struck {
+                frame: None,
                 member: MemberPlace::InSpace(member.place),
                 axis: Some(axis),
                 point,

@@ -63,6 +63,8 @@ pub enum SpringPlace {
     },
     /// Between the floors of a column, where a neighbour or a link pushes it.
     Struck {
+        /// Its frame, where several stand in a plan.
+        frame: Option<usize>,
         /// Its column.
         member: MemberPlace,
         /// Along which lines it bends, in a space frame.
@@ -256,10 +258,12 @@ impl SpringPlace {
                     None => self.to_string(),
                 }
             }
-            Self::Shear { frame, .. } => match frame.and_then(of_frame) {
-                Some(name) => format!("frame {name}, {self}"),
-                None => self.to_string(),
-            },
+            Self::Shear { frame, .. } | Self::Struck { frame, .. } => {
+                match frame.and_then(of_frame) {
+                    Some(name) => format!("frame {name}, {self}"),
+                    None => self.to_string(),
+                }
+            }
             Self::Sliding { frame, member } => match frame.and_then(of_frame) {
                 Some(name) => format!("frame {name}, {}", sliding_in_words(member)),
                 None => self.to_string(),
@@ -332,6 +336,17 @@ impl SpringPlace {
                 end,
                 point,
                 fibre,
+            }),
+            Self::Struck {
+                member,
+                axis,
+                point,
+                ..
+            } => Some(Self::Struck {
+                frame: Some(frame),
+                member,
+                axis,
+                point,
             }),
             Self::Shear {
                 member, axis, end, ..
@@ -518,6 +533,7 @@ impl std::fmt::Display for SpringPlace {
                 member,
                 axis,
                 point,
+                ..
             } => {
                 match member {
                     MemberPlace::Column { line, storey } => {

@@ -15,7 +15,7 @@ use super::space_joints::{AddedJoints, add_space_joints};
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, StickModel, Support, YieldingElement};
 use crate::model::{
-    Base, Gravity, LumpedFloor, PlanPoint, ProportionalDamping, SpaceFrame, SpacePlace, Tiers,
+    Base, Gravity, LumpedFloor, PlanColumn, PlanPoint, ProportionalDamping, SpaceFrame, Tiers,
 };
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
@@ -30,13 +30,13 @@ pub(super) fn discretize_tiers(
     tiers: &Tiers,
     gravity: Gravity,
     base: &Base,
-    struck: &BTreeMap<SpacePlace, Vec<f64>>,
+    struck: &BTreeMap<PlanColumn, Vec<f64>>,
 ) -> Discretization {
     let mut stick_model = StickModel::default();
     let points = tiers.space_frame.as_ref();
     let points = points.map(|frame| ColumnPoints::new(frame, &tiers.storey_heights, struck));
     let points = points.unwrap_or_default();
-    let lumped = tiers.lumped_floors();
+    let lumped = tiers.lumped_floors_with(struck);
     let mut lighter = lumped.clone();
     if !points.all.is_empty() {
         lightened(&mut lighter, &points.taken);
@@ -50,7 +50,7 @@ pub(super) fn discretize_tiers(
         stick_model.nodes.len() - 1
     };
     let ground = add(Node::at(0.0, 0.0).held(Support::Fixed));
-    let mat = tiers.carrier(base);
+    let mat = tiers.carrier_with(base, struck);
     let foot = mat.as_ref().map_or(ground, |mat| add(of_floor(0.0, mat)));
     let mut floors = Vec::with_capacity(tiers.floors.len());
     for (floor, storey_height) in lighter.iter().zip(&tiers.storey_heights) {
@@ -160,6 +160,9 @@ pub(super) fn discretize_tiers(
         element_names: tiers.element_names.clone(),
         space_frame: condensed,
         jointed_frame: jointed,
+        carrier: mat.clone(),
+        lumped: lighter,
+        points: joints.points,
         ..Discretization::default()
     };
     if let Some(frame) = &tiers.space_frame {
@@ -198,7 +201,7 @@ pub(super) fn discretize_tiers(
         }
     }
     let below = mat.as_ref().map(|mat| (foot, mat));
-    add_frames(tiers, &lumped, below, carries, &mut discretization);
+    add_frames(tiers, struck, &lumped, below, carries, &mut discretization);
     if tiers.frames.is_empty() && tiers.space_frame.is_none() {
         let floors = lumped.iter().enumerate();
         let carried =

@@ -16,7 +16,7 @@ use crate::model::{
     Base, Building, Damping, FloorPairs, Foundation, LEVEL_TOLERANCE, Level, Link, LinkLaw,
     LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure, Tier,
 };
-use crate::structure::{Discretization, InnerLink, LinkEnd, PointNode, StruckPoints, lightened};
+use crate::structure::{Discretization, InnerLink, LinkEnd, PointNode, StruckPoints};
 
 impl System {
     /// Assembles a model.
@@ -403,35 +403,21 @@ fn plan_contacts(
         return Default::default();
     };
     // By number, the mat first; none of a wall.
-    let floors = |side: usize| {
-        let Some(building) = model.buildings.get(side) else {
-            return Vec::new();
-        };
-        let Structure::Tiers(tiers) = &building.structure else {
-            return Vec::new();
-        };
-        let mat = building
-            .base
-            .isolation
-            .map_or(0.0, |isolation| isolation.mat_mass);
-        let mut all = vec![tiers.mat(mat)];
-        let mut lumped = tiers.lumped_floors();
-        let frame = &system.buildings[side].discretization.jointed_frame;
-        if let Some(frame) = frame.as_ref().filter(|frame| !frame.taken.is_empty()) {
-            lightened(&mut lumped, &frame.taken);
+    let floor_of = |side: usize, floor: usize| {
+        let discretization = &system.buildings.get(side)?.discretization;
+        match floor.checked_sub(1) {
+            Some(floor) => discretization.lumped.get(floor).cloned(),
+            None => discretization.carrier.clone(),
         }
-        all.extend(lumped);
-        all
     };
-    let (one, other) = (floors(a), floors(b));
     let found = faces_of_gap(model, gap).unwrap_or_default();
     let narrowest = narrowest(&found).unwrap_or_default();
     let wider = gap.width() - narrowest;
     let (mut contacts, mut ends) = (Vec::new(), Vec::new());
     for (number, (touched, face)) in found.iter().enumerate() {
-        let sides = [(a, touched[0], &one), (b, touched[1], &other)];
-        let pushed = sides.map(|(side, touched, floors)| match touched {
-            Touched::Floor(floor) => Ok(floors.get(floor).cloned()),
+        let sides = [(a, touched[0]), (b, touched[1])];
+        let pushed = sides.map(|(side, touched)| match touched {
+            Touched::Floor(floor) => Ok(floor_of(side, floor)),
             Touched::Column(column, above) => {
                 let point = system.buildings[side].column_point(column, above)?;
                 Ok(Some(point_as_floor(point, face.middle)))

@@ -16,7 +16,7 @@ use crate::eigen::{
 };
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
-use crate::model::{Building, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY, SpacePlace};
+use crate::model::{Building, Gravity, LEVEL_TOLERANCE, PlanColumn, PlanPoint, STANDARD_GRAVITY};
 use crate::motion::Ground;
 use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
@@ -268,7 +268,6 @@ impl BuildingSystem {
         if self.is_in_space() {
             // P-Delta is part of its matrices.
             asked.p_delta = false;
-            asked.preload &= self.moves_vertically();
             if self.modes.is_empty() {
                 return Err(Collapse::Movable);
             }
@@ -597,41 +596,46 @@ impl BuildingSystem {
         self.point(floor, dofs, at, direction)
     }
 
-    /// The point of a column of its space frame, so far above the joint at its foot.
+    /// The point of a column, so far above the joint at its foot.
     ///
     /// # Errors
     /// Points that cannot be struck.
     pub(crate) fn column_point(
         &self,
-        column: SpacePlace,
+        column: PlanColumn,
         above: f64,
     ) -> Result<&PointNode, String> {
-        let name = format!("{}.{column}", self.name);
-        let floor = &self.floors[column.storey()];
+        let name = || {
+            let place = column.name(&self.discretization.frames);
+            format!("{}.{place}", self.name)
+        };
+        let floor = &self.floors[column.storey];
         let height = floor.height - floor.storey_height + above;
-        let frame = self.discretization.jointed_frame.as_deref();
-        let mut points = frame.iter().flat_map(|frame| &frame.points);
+        let mut points = self.discretization.points.iter();
         let point = points.find(|point| {
             point.column == column && (point.height - height).abs() <= LEVEL_TOLERANCE
         });
         let point = point.ok_or_else(|| {
             format!(
-                "no point to hit on {name} at {height:.3} m: the end of the column is rigid there; leave rigid_ends out, or make them shorter"
+                "no point to hit on {} at {height:.3} m: the end of the column is rigid there; leave rigid_ends out, or make them shorter",
+                name()
             )
         })?;
         match point.mass > 0.0 {
             true => Ok(point),
             false => Err(format!(
-                "{name} has no mass where it would be hit; give its section a mass per length"
+                "{} has no mass where it would be hit; give its section a mass per length",
+                name()
             )),
         }
     }
 
     /// The displacement of such a point in a direction, over the vectors of a [`crate::State`].
     pub(crate) fn row_of_point(&self, point: &PointNode, direction: [f64; 2]) -> Row {
-        let moved = [X, Y].into_iter().zip(direction);
+        let moved = point.moved.iter().zip(direction);
         let moved = moved.filter(|(_, share)| *share != 0.0);
-        let row = over_nodes(moved.map(|(component, share)| ((point.node, component), share)));
+        let moved = moved.map(|(row, share)| row.times(share));
+        let row = moved.reduce(|a, b| a.plus(&b)).unwrap_or_default();
         self.equations.row(&row).moved_up(self.offset)
     }
 

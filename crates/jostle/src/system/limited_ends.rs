@@ -34,13 +34,17 @@ fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
             let name = format!("column.{line}.{storey}");
             (columns, [line, storey], name, end.of_column())
         }
-        SpringPlace::Struck { member, .. } => {
+        SpringPlace::Struck { frame, member, .. } => {
             let at = match member {
                 MemberPlace::Column { line, storey } => [line, storey],
                 MemberPlace::Beam { floor, span } => [span, floor],
                 MemberPlace::InSpace(place) => [0, place.storey() + 1],
             };
-            (columns, at, member.to_string(), "struck")
+            let name = match frame {
+                Some(frame) => format!("{}.{member}", of_frame(frame)),
+                None => member.to_string(),
+            };
+            (columns, at, name, "struck")
         }
         SpringPlace::Beam { floor, bay, end } => {
             let name = format!("beam.{floor}.{bay}");

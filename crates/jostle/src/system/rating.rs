@@ -67,7 +67,12 @@ impl MemberHinge {
         });
         let hinge_places: Vec<(SpringPlace, SectionAt)> = hinge_places.collect();
         let at = |spring: &SpringPlace| match *spring {
-            SpringPlace::Struck { member, .. } => (place == member).then_some(SectionAt::Below),
+            SpringPlace::Struck {
+                frame: of, member, ..
+            } => {
+                let is_here = (of, member) == (frame.map(|frame| frame + 1), place);
+                is_here.then_some(SectionAt::Below)
+            }
             _ => {
                 let mut known = hinge_places.iter();
                 known.find(|(end, _)| end == spring).map(|(_, at)| *at)

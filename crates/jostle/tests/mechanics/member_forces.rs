@@ -463,6 +463,7 @@ fn a_struck_column_bears_no_more_than_its_plastic_limit() {
     );
     let places = &system.buildings[1].discretization.spring_places;
     let point = SpringPlace::Struck {
+        frame: None,
         member: LEFT,
         axis: None,
         point: 1,

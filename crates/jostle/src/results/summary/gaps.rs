@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::interface::PlanPart;
 use crate::quantity::{Quantity, Unit};
 use crate::results::in_plan::{ImpactSliding, PlanContactSummary};
 
@@ -100,6 +99,10 @@ pub struct ContactSummary {
     /// Where it is in plan; absent in one plane.
     #[serde(flatten)]
     pub in_plan: Option<PlanContactSummary>,
+    /// Line of the column of a building with a plan that is struck between its floors, as [`crate::model::ColumnLine::name`] has it; `None`
+    /// elsewhere.
+    #[serde(skip)]
+    pub struck_column: Option<String>,
     /// Width at rest, the least of its points \[m\].
     pub width_m: f64,
     /// Depth to which the face is crushed at the end of the run, by which its gap is wider, the greatest of its points; absent
@@ -127,18 +130,6 @@ pub struct ContactSummary {
     pub impulse_n_s: f64,
     /// Impacts in order of time.
     pub impacts: Vec<ImpactSummary>,
-}
-
-impl ContactSummary {
-    /// Grid lines x and y, from 1, of the column of a space frame that is struck between its floors; `None` elsewhere.
-    #[must_use]
-    pub fn struck_column(&self) -> Option<[usize; 2]> {
-        let parts = self.in_plan?.parts;
-        parts.into_iter().find_map(|part| match part {
-            PlanPart::Column(lines) => Some(lines.map(|line| line + 1)),
-            PlanPart::Edge(_) | PlanPart::Corner(_) => None,
-        })
-    }
 }
 
 #[rustfmt::skip]

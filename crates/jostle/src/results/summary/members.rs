@@ -15,6 +15,9 @@ pub struct MemberSummary {
     /// Where it is in its building.
     #[serde(skip)]
     pub place: Option<MemberPlace>,
+    /// Number of its frame, from 0, where several stand in a plan.
+    #[serde(skip)]
+    pub frame: Option<usize>,
     /// Name of the column that two frames share, whose axial forces are those of both frames together; absent for others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shared_column: Option<String>,

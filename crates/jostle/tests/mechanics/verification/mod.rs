@@ -59,6 +59,7 @@ mod space;
 mod space_fibres;
 mod space_frames;
 mod storey_forces;
+mod struck_in_plan;
 mod struck_in_space;
 mod support;
 mod total_force_of_a_gap;

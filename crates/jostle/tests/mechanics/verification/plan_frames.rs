@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
-    Analysis, Base, Building, Damping, Frame, Gap, GroundMotion, MemberRequest, Model, Outcome,
-    PlanFrame, PlanPoint, RiccatiSweep, Section, Solver, State, Structure, System, Tier,
-    TierStorey, Tiers,
+    Analysis, Base, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, Frame, Gap,
+    GroundMotion, MemberRequest, Model, Outcome, PlanFrame, PlanPoint, Reach, RiccatiSweep, Rise,
+    Section, Solver, State, Structure, StrutLine, System, Tier, TierStorey, Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::models::{self, CONCRETE, FIVE_PERCENT, concrete, rectangle};
@@ -193,6 +193,73 @@ fn frames_with_rigid_ends_are_twice_a_plane_frame() {
         }
     }
     are_twice_a_plane_frame(&one, &[ALL_MODES]);
+}
+
+/// Struts that meet columns off the joints divide them, so that masses move between the floors.
+#[test]
+fn frames_with_struts_off_the_joints_are_twice_a_plane_frame() {
+    for segments in [1, 3] {
+        let mut one = frame(4, &[6.0, 6.0]);
+        one.column_segments = segments;
+        one.diagonals = Rise::BOTH
+            .map(|rise| Diagonal {
+                place: DiagonalPlace {
+                    kind: DiagonalKind::Infill,
+                    line: None,
+                    storey: 2,
+                    bay: 1,
+                    rise,
+                    reach: Reach::BAY,
+                    strut: StrutLine::Central,
+                },
+                stiffness: 8e7,
+                hysteresis: None,
+                offsets: [0.5, 0.7],
+                across: None,
+                damage: None,
+            })
+            .to_vec();
+        are_twice_a_plane_frame(&one, &[ALL_MODES]);
+    }
+}
+
+/// Feet of columns bear the weight of the building, whether or not anything can sink.
+#[test]
+fn columns_bear_the_weight_of_frames_that_keep_their_length() {
+    for (flexible, segments) in [(false, 1), (false, 4), (true, 1), (true, 4)] {
+        let mut one = frame(2, &[6.0, 6.0]);
+        one.axial.columns_flexible = flexible;
+        one.beam_segments = vec![segments; 2];
+        let frames = vec![
+            standing("1", [0.0, 0.0], 0.0, one.clone()),
+            standing("2", [0.0, 12.0], 0.0, one.clone()),
+            standing("A", [0.0, 0.0], 0.5 * PI, one.clone()),
+            standing("B", [12.0, 0.0], 0.5 * PI, one),
+        ];
+        let plan = rectangle(0.0, 0.0, 12.0, 12.0);
+        let mut own = building("A", in_plan(80e3, &plan, 2, frames), ALL_MODES);
+        own.gravity.preload = true;
+        let mut model = model(vec![own], vec![]);
+        model.analysis.solver = None;
+        let mut motion = shaking();
+        motion.duration = 0.01;
+        let (system, outcome) = runs::run(&model, &motion, None);
+        let building = &system.buildings[0];
+        let columns = building.members.members.iter();
+        let feet =
+            columns.filter(|member| matches!(member.place, MemberPlace::Column { storey: 1, .. }));
+        let borne: f64 = feet
+            .map(|member| outcome.members[0][member.sections[0].forms[0]][0])
+            .sum();
+        let weight = 9.80665 * building.equations.total_mass();
+        close(
+            -borne,
+            weight,
+            weight,
+            1e-4,
+            &format!("{flexible}, {segments}"),
+        );
+    }
 }
 
 /// Two frames along x and two across, all equal, shaken along x: half of it is a plane frame with the same mass.

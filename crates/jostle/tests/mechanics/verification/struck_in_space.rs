@@ -16,21 +16,21 @@ use jostle_testkit::models::rectangle;
 use jostle_testkit::motions::fading;
 use jostle_testkit::runs;
 
-const E: f64 = 30e9;
-const NU: f64 = 0.2;
+pub(super) const E: f64 = 30e9;
+pub(super) const NU: f64 = 0.2;
 const DENSITY: f64 = 2500.0;
-const GAP: f64 = 0.01;
+pub(super) const GAP: f64 = 0.01;
 const DAMPING: Damping = Damping::Rayleigh {
     alpha: 0.4,
     beta: 4e-4,
 };
 /// Storeys of the struck frame, and its bay along and across \[m\].
-const STOREYS: [f64; 2] = [4.0, 3.6];
-const BAY: [f64; 2] = [6.0, 5.0];
+pub(super) const STOREYS: [f64; 2] = [4.0, 3.6];
+pub(super) const BAY: [f64; 2] = [6.0, 5.0];
 /// Mass of its floors \[kg\].
-const MASS: f64 = 60e3;
+pub(super) const MASS: f64 = 60e3;
 
-fn law(kind: LawKind, stiffness: f64) -> ContactLaw {
+pub(super) fn law(kind: LawKind, stiffness: f64) -> ContactLaw {
     ContactLaw {
         kind,
         stiffness,
@@ -39,7 +39,7 @@ fn law(kind: LawKind, stiffness: f64) -> ContactLaw {
     }
 }
 
-fn column_section([a, b]: [f64; 2], stretches: bool) -> SpaceSection {
+pub(super) fn column_section([a, b]: [f64; 2], stretches: bool) -> SpaceSection {
     let section = SpaceSection::rectangle([a, b], E, NU, false).expect("a section");
     SpaceSection {
         line_mass: DENSITY * a * b,
@@ -48,12 +48,12 @@ fn column_section([a, b]: [f64; 2], stretches: bool) -> SpaceSection {
     }
 }
 
-fn beam_section(size: [f64; 2]) -> SpaceSection {
+pub(super) fn beam_section(size: [f64; 2]) -> SpaceSection {
     SpaceSection::beam(size, E, NU, false).expect("a section")
 }
 
 /// One bay by one bay.
-fn bay_by_bay(stretches: bool) -> SpaceFrame {
+pub(super) fn bay_by_bay(stretches: bool) -> SpaceFrame {
     let mut members = Vec::new();
     let mut add = |place: SpacePlace, section: SpaceSection| {
         members.push(SpaceMember::elastic(place, section));
@@ -85,7 +85,7 @@ fn bay_by_bay(stretches: bool) -> SpaceFrame {
     }
 }
 
-fn building(name: &str, structure: Structure) -> Building {
+pub(super) fn building(name: &str, structure: Structure) -> Building {
     Building {
         name: name.to_owned(),
         structure,
@@ -94,7 +94,7 @@ fn building(name: &str, structure: Structure) -> Building {
     }
 }
 
-fn framed(frame: SpaceFrame) -> Building {
+pub(super) fn framed(frame: SpaceFrame) -> Building {
     let plan = rectangle(0.0, 0.0, BAY[0], BAY[1]);
     let floor = Tier::uniform(MASS, plan).expect("an area");
     building(
@@ -113,7 +113,7 @@ const OTHER_MASS: f64 = 40e3;
 const OTHER_STIFFNESS: f64 = 25e6;
 
 /// A building of rigid floors beside the frame.
-fn beside(heights: &[f64], plan: Vec<PlanPoint>, centre: PlanPoint) -> Building {
+pub(super) fn beside(heights: &[f64], plan: Vec<PlanPoint>, centre: PlanPoint) -> Building {
     let floor = Tier::uniform(OTHER_MASS, plan).expect("an area");
     building(
         "B",
@@ -132,7 +132,12 @@ fn beside(heights: &[f64], plan: Vec<PlanPoint>, centre: PlanPoint) -> Building 
     )
 }
 
-fn model(buildings: Vec<Building>, floors: FloorPairs, law: ContactLaw, solver: Solver) -> Model {
+pub(super) fn model(
+    buildings: Vec<Building>,
+    floors: FloorPairs,
+    law: ContactLaw,
+    solver: Solver,
+) -> Model {
     Model {
         title: "struck".to_owned(),
         buildings,
@@ -150,18 +155,18 @@ fn model(buildings: Vec<Building>, floors: FloorPairs, law: ContactLaw, solver: 
     }
 }
 
-fn shaken(model: &Model, motion: &GroundMotion) -> (System, Outcome, Summary) {
+pub(super) fn shaken(model: &Model, motion: &GroundMotion) -> (System, Outcome, Summary) {
     runs::run_and_summary(model, motion)
 }
 
-fn shaking() -> GroundMotion {
+pub(super) fn shaking() -> GroundMotion {
     fading("two", 8.0, [4.0, 1.6], 250)
 }
 
 /// Heights of the floors of the neighbour, both between those of the frame.
-const SLABS: [f64; 2] = [2.7, 3.4];
+pub(super) const SLABS: [f64; 2] = [2.7, 3.4];
 
-fn on_columns() -> FloorPairs {
+pub(super) fn on_columns() -> FloorPairs {
     FloorPairs::Listed(vec![
         [Level::Height(SLABS[0]), Level::Floor(1)],
         [Level::Height(SLABS[0] + SLABS[1]), Level::Floor(2)],
@@ -1022,8 +1027,50 @@ fn frames_strike_the_columns_of_each_other() {
     }
 }
 
+/// Floors at equal height touch along faces of several points; the columns that are struck besides have their own impacts.
+#[test]
+fn impacts_on_columns_beside_faces_are_their_own() {
+    let mut other = framed(bay_by_bay(true));
+    other.name = "B".to_owned();
+    if let Structure::Tiers(tiers) = &mut other.structure {
+        tiers.move_by([BAY[0] + GAP, 1.0]);
+        tiers.storey_heights = vec![STOREYS[0], 2.4];
+    }
+    let law = law(LawKind::HertzDamp, 5e8);
+    let buildings = vec![framed(bay_by_bay(true)), other];
+    let model = model(buildings, FloorPairs::All, law, Solver::Riccati);
+    let (_, _, summary) = shaken(&model, &shaking());
+    let contacts = &summary.gaps[0].contacts;
+    assert_eq!(contacts[0].floors, [Some(1), Some(1)]);
+    let struck = contacts
+        .iter()
+        .filter(|contact| contact.struck_column.is_some());
+    let mut compared = 0;
+    for contact in struck {
+        let side = contact
+            .floors
+            .iter()
+            .position(Option::is_none)
+            .expect("a column");
+        let building = &summary.buildings[side];
+        let line = contact.struck_column.as_deref().expect("a line");
+        let column = format!("{}.column.{line}.", building.name);
+        let own = building
+            .members
+            .iter()
+            .filter(|member| member.name.starts_with(&column));
+        let mut points = own.flat_map(|member| &member.struck);
+        let point = points.find(|point| (point.height_m - contact.height_m).abs() < 1e-9);
+        let point = point.expect("a struck point");
+        assert_eq!(point.impact_count, contact.impact_count);
+        assert_eq!(point.peak_force_n, contact.peak_force_n);
+        compared += contact.impact_count;
+    }
+    assert!(compared > 0);
+}
+
 /// Faults of the gaps of a model.
-fn faults(buildings: Vec<Building>, floors: FloorPairs) -> String {
+pub(super) fn faults(buildings: Vec<Building>, floors: FloorPairs) -> String {
     let model = model(buildings, floors, law(LawKind::Hertz, 5e8), Solver::Modal);
     let faults = System::assemble(&model).expect_err("a fault");
     let all = faults
