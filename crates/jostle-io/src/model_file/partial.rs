@@ -68,7 +68,7 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
             format!("Write floors = \"all\" to include them, or {listed} to say that they cannot")
         }
         [false, false] if in_space => format!(
-            "Of buildings with a plan only space frames have columns that can be hit between floors: describe them as space frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
+            "Of buildings with a plan only frames have columns that can be hit between floors: describe them by frames at lines or as space frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
         ),
         [false, false] => format!(
             "Shear buildings and given ones have no columns to hit: describe them as frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"

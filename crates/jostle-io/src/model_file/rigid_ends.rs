@@ -85,7 +85,8 @@ pub(super) fn read_in_space(
     zones.filter(|(_, zone)| *zone != [0.0; 3]).collect()
 }
 
-/// Lengths of the columns of a storey (`key` = `"column"`), or of the beams of a floor, between the rigid zones of joints \[m\].
+/// Lengths of the columns of a storey (`key` = `"column"`), or of the beams of a floor, between the rigid zones of joints and the faces of
+/// walls \[m\].
 pub(super) fn bending_lengths(frame: &Frame, key: &str, storey: usize) -> Vec<f64> {
     match key {
         "column" => {
@@ -95,11 +96,8 @@ pub(super) fn bending_lengths(frame: &Frame, key: &str, storey: usize) -> Vec<f6
                 .collect()
         }
         _ => {
-            let rigid = |line| frame.rigid_zone([storey, line])[0];
-            let spans = frame.spans.iter().enumerate();
-            spans
-                .map(|(bay, span)| span - rigid(bay) - rigid(bay + 1))
-                .collect()
+            let bays = 0..frame.spans.len();
+            bays.map(|bay| frame.clear_span([storey, bay])).collect()
         }
     }
 }

@@ -165,7 +165,13 @@ impl AskedSurfaces {
                     ]
                     .map(str::to_owned));
                 }
-                [section, &turned].map(|section| Interaction::new(section).corners(MOST_CORNERS))
+                let [along, mut across] =
+                    [section, &turned].map(|own| Interaction::new(own).corners(MOST_CORNERS));
+                // Both diagrams are summed over layers of their own, and end at one force.
+                let last = across.len() - 1;
+                across[0][0] = along[0][0];
+                across[last][0] = along[along.len() - 1][0];
+                [along, across]
             }
             (None, None) => return Err(without()),
         };

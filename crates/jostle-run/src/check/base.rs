@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use jostle::{BedSpring, Foundation};
-use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MASS, MOMENT};
+use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MASS, MOMENT, PRESSURE};
 
 use crate::numbers::prefixed;
 
@@ -91,7 +91,40 @@ pub(super) fn describe_foundation_in_plan(
         prefixed(springs.along.vertical_stiffness, "N/m", 3),
         prefixed(springs.along.vertical_damping, "N·s/m", 3),
         FORCE.text(weight, 0)
-    )
+    )?;
+    describe_bearing(text, &plan.foundation, weight, bed)
+}
+
+/// Pressure of self weight on springs that can yield, and how many do so under it.
+fn describe_bearing(
+    text: &mut String,
+    foundation: &Foundation,
+    weight: f64,
+    bed: &[BedSpring],
+) -> std::fmt::Result {
+    let bearing = foundation.uplift.as_ref().and_then(|uplift| uplift.bearing);
+    let Some(bearing) = bearing else {
+        return Ok(());
+    };
+    let stiffness: f64 = bed.iter().map(|spring| spring.stiffness).sum();
+    let area: f64 = bed.iter().map(|spring| spring.area).sum();
+    let pressure = |spring: &BedSpring| weight * spring.stiffness / (stiffness * spring.area);
+    let over = bed
+        .iter()
+        .filter(|spring| pressure(spring) > bearing.strength);
+    let mean = PRESSURE.text(weight / area, 0);
+    let strength = PRESSURE.text(bearing.strength, 0);
+    match over.count() {
+        0 => writeln!(
+            text,
+            "  self weight presses with {mean} on average, bearing strength {strength}"
+        ),
+        over => writeln!(
+            text,
+            "  self weight presses with {mean} on average, but on {over} of {} contact springs with more than the bearing strength of {strength}: they yield before shaking begins. The outermost springs attract weight to match the rocking stiffness of the soil; ends = 1 spreads it evenly",
+            bed.len()
+        ),
+    }
 }
 
 /// Foundation, springs and dashpots of the soil, and what they do to the first mode.
@@ -143,7 +176,8 @@ pub(super) fn describe_foundation(
         MOMENT.number(lifting, 0),
         MOMENT.number(weight * reach, 0),
         FORCE.text(weight, 0)
-    )
+    )?;
+    describe_bearing(text, foundation, weight, bed)
 }
 
 /// Amplitude at which the equivalent linear bearings are given, where there is no limit \[m\].

@@ -3,9 +3,10 @@
 use super::{Faults, each, given, plan_frames, space_frame};
 use crate::contact::LawKind;
 use crate::interface::plan_contacts::MOST_POINTS;
-use crate::interface::{columns_not_met, faces_of_gap};
+use crate::interface::{Touched, columns_not_met, faces_of_gap};
 use crate::model::{
-    Base, Building, ColumnLine, Gap, Link, Model, PlanArea, PlanPoint, Structure, Tiers, Wall,
+    Base, Building, ColumnLine, Gap, Link, Model, PlanArea, PlanColumn, PlanPoint, Structure,
+    Tiers, Wall,
 };
 
 /// Whether all buildings have plans, or none has.
@@ -482,18 +483,26 @@ pub(super) fn check_plan_gap(faults: &mut Faults, path: &str, gap: &Gap, model: 
         faults.add(format!("{path}.floors[{entry}]"), problem);
     }
     for side in between.into_iter().filter(|side| *side < last) {
-        check_struck(faults, path, model, side);
+        check_struck(faults, path, (model, gap), side);
     }
 }
 
-/// Whether floors have more mass than columns take from them that a gap lets be struck between floors.
-fn check_struck(faults: &mut Faults, path: &str, model: &Model, building: usize) {
+/// Whether the columns of a building can bear what a gap says of them where they are struck between floors.
+fn check_struck(faults: &mut Faults, path: &str, (model, gap): (&Model, &Gap), building: usize) {
     let building_model = &model.buildings[building];
     let Structure::Tiers(tiers) = &building_model.structure else {
         return;
     };
     let name = &building_model.name;
-    let struck = model.columns_struck_between_floors(building);
+    let faces = faces_of_gap(model, gap).unwrap_or_default().into_iter();
+    let struck = faces.flat_map(|(touched, _)| {
+        let sides = gap.between.into_iter().zip(touched);
+        sides.filter_map(|(side, touched)| match touched {
+            Touched::Column(column, _) if side == Some(building) => Some(column),
+            Touched::Column(..) | Touched::Floor(_) => None,
+        })
+    });
+    let struck: Vec<PlanColumn> = struck.collect();
     if !struck.is_empty()
         && let Some(problem) = space_frame::fault_of_column_masses(tiers)
     {
@@ -507,6 +516,16 @@ fn check_struck(faults: &mut Faults, path: &str, model: &Model, building: usize)
             continue;
         };
         let frame = &tiers.frames[frame];
+        if gap.in_plan.per_length {
+            faults.add(
+                format!("{path}.stiffness_per_length"),
+                format!(
+                    "is multiplied by the width of a column that is hit, and those of frame {} of \"{name}\" have none; give stiffness, or describe \"{name}\" as a space frame",
+                    frame.name
+                ),
+            );
+            return;
+        }
         if !frame.is_along_an_axis() {
             faults.add(
                 format!("{path}.floors"),

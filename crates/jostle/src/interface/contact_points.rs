@@ -224,7 +224,7 @@ fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
             )
         }
         [false, false] if left.is_in_space() => format!(
-            "of buildings with a plan only space frames have columns that can be hit between floors: {slabs}, describe {} and {} as space frames, or leave the gap out",
+            "of buildings with a plan only frames have columns that can be hit between floors: {slabs}, describe {} and {} by frames at lines or as space frames, or leave the gap out",
             name(left),
             name(right)
         ),

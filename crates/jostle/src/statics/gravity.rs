@@ -90,7 +90,7 @@ pub enum Collapse {
     Overloaded,
     /// P-Delta has used up its stiffness.
     #[error(
-        "the building buckles under its own weight: P-Delta exceeds its lateral stiffness; are its masses and sections right?"
+        "the building buckles under its own weight: P-Delta exceeds its stiffness, lateral or in torsion; are its masses and sections right?"
     )]
     Buckles,
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory, SpaceSurface};
 use crate::linear::{Row, SparseSymmetric};
-use crate::model::{ProportionalDamping, STANDARD_GRAVITY};
+use crate::model::{LEVEL_TOLERANCE, ProportionalDamping, STANDARD_GRAVITY};
 use crate::motion::Ground;
 use crate::simd;
 use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
@@ -99,7 +99,14 @@ impl Equations {
             if node.support == Support::Fixed {
                 continue;
             }
-            total_mass += node.mass;
+            // Ends of columns beyond hinges stand as still as the feet beside them.
+            let moves = [X, Y].into_iter().any(|component| {
+                let carried = stick_model.carried((index, component));
+                element::places(&carried).any(|(place, _)| path.dof(place.0, place.1).is_some())
+            });
+            if moves {
+                total_mass += node.mass;
+            }
             for (component, inertia) in node.inertia.into_iter().enumerate() {
                 let carried = stick_model.carried((index, component));
                 let moved = node.influence[component];
@@ -163,7 +170,10 @@ impl Equations {
             }
             let along = stick_model.influence(a).along;
             if let (false, Some(_), Some(column)) = (
-                of_supports || along == 0.0 || part == Part::Dashpot,
+                of_supports
+                    || along == 0.0
+                    || part == Part::Dashpot
+                    || stands_below(stick_model, a),
                 path.dof(a.0, a.1),
                 path.dof(b.0, b.1),
             ) {
@@ -337,6 +347,13 @@ impl Equations {
     }
 }
 
+/// Whether a displacement is that of what a building with a plan stands on: its base shear is what the lowest storey bears, in every
+/// direction. On bearings it is the force of these.
+fn stands_below(stick_model: &StickModel, place: Place) -> bool {
+    let moves = stick_model.moves_across() && stick_model.plan_mat.is_none();
+    moves && stick_model.nodes[place.0].y <= LEVEL_TOLERANCE
+}
+
 /// Springs that yield: those by themselves, then bearings in plan, then sections on a surface.
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
     let foundation = stick_model.foundation.as_ref();
@@ -350,7 +367,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
             let dof = path.dof(place.0, place.1);
             match sway {
                 Some(_) if dof == sway && place.1 == X => -along,
-                None if dof.is_some() => along,
+                None if dof.is_some() && !stands_below(stick_model, place) => along,
                 _ => 0.0,
             }
         });

@@ -359,7 +359,7 @@ impl MemberForces {
                 let node = cuts.elements[element].ends[side];
                 let forms = [
                     cuts.axial(element, side),
-                    cuts.shear(element, side),
+                    cuts.shear_at(member, at, element, side),
                     cuts.moment(member, at, element, side),
                 ];
                 MemberSection {
@@ -601,6 +601,42 @@ impl<'a> Cuts<'a> {
             self.end_force(element, side, X, -outwards)
         } else {
             self.end_force(element, side, Y, outwards)
+        }
+    }
+
+    /// At an end of a column that can fail in shear, that of its spring, which bears the damping of the column as well. Without masses
+    /// between, the head has that of the foot.
+    fn shear_at(
+        &self,
+        member: &FrameMember,
+        at: SectionAt,
+        element: usize,
+        side: usize,
+    ) -> LinearForm {
+        let discretization = &self.building.discretization;
+        let spring_at = |end: MemberEnd| {
+            let place = SpringPlace::Shear {
+                frame: None,
+                member: member.place,
+                axis: None,
+                end,
+            };
+            discretization.spring_at(member.frame, place)
+        };
+        let spring = match at {
+            SectionAt::First => spring_at(MemberEnd::First),
+            SectionAt::Last => {
+                let foot = || spring_at(MemberEnd::First).filter(|_| member.elements.len() == 1);
+                spring_at(MemberEnd::Last).or_else(foot)
+            }
+            SectionAt::Below | SectionAt::Above | SectionAt::Core => None,
+        };
+        match spring {
+            Some(spring) => LinearForm {
+                springs: Row::single(spring),
+                ..LinearForm::default()
+            },
+            None => self.shear(element, side),
         }
     }
 

@@ -8,7 +8,7 @@ use super::space_frame::CondensedFrame;
 use super::space_joints::{JointedFrame, JointedMember, JointedPart};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::wall_forces::WallForce;
-use crate::linear::sort_by_key;
+use crate::linear::{Row, sort_by_key};
 use crate::model::{PlanAxis, SpacePlace, SpaceWall};
 use crate::structure::AssembledBuilding;
 
@@ -148,9 +148,30 @@ impl MemberForces {
                     })
                 })
                 .collect();
+            // A column that can fail in shear has that of its springs, which bear its damping as well.
+            let mut slide = |axis: PlanAxis, end: MemberEnd| {
+                let place = SpringPlace::Shear {
+                    frame: None,
+                    member: MemberPlace::InSpace(member.place),
+                    axis: Some(axis),
+                    end,
+                };
+                let spring = building.discretization.spring_at(None, place)?;
+                Some(self.index_of(LinearForm {
+                    springs: Row::single(spring),
+                    ..LinearForm::default()
+                }))
+            };
+            let slides = PlanAxis::BOTH.map(|axis| {
+                let [foot, head] = [MemberEnd::First, MemberEnd::Last].map(|end| slide(axis, end));
+                [foot, head.or(foot.filter(|_| parts.len() == 1))]
+            });
             let section = |at: SectionAt, part: usize, height: f64, dofs: [Option<usize>; 2]| {
                 let side = usize::from(matches!(at, SectionAt::Last | SectionAt::Below));
                 let [(shear, moments), (shear_across, moments_across)] = parts[part];
+                let is_end = matches!(at, SectionAt::First | SectionAt::Last);
+                let [shear, shear_across] = [(shear, slides[0]), (shear_across, slides[1])]
+                    .map(|(whole, slides)| slides[side].filter(|_| is_end).unwrap_or(whole));
                 MemberSection {
                     at,
                     height,

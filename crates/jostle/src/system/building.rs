@@ -269,7 +269,10 @@ impl BuildingSystem {
             // P-Delta is part of its matrices.
             asked.p_delta = false;
             if self.modes.is_empty() {
-                return Err(Collapse::Movable);
+                return Err(match gravity.p_delta {
+                    true => Collapse::Buckles,
+                    false => Collapse::Movable,
+                });
             }
             if !asked.preload {
                 return Ok(());

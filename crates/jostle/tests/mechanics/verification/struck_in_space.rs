@@ -1237,7 +1237,7 @@ fn what_cannot_be_struck_is_told() {
     let storeys = beside(&[4.0], rectangle(0.0, 0.0, 6.0, 5.0), [3.0, 2.5]);
     let told = faults(vec![storeys, beside_frame(3.0)], FloorPairs::All);
     assert!(
-        told.contains("only space frames have columns that can be hit"),
+        told.contains("only frames have columns that can be hit"),
         "{told}"
     );
 }
