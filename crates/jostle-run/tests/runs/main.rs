@@ -8,6 +8,7 @@ mod given;
 mod indentation;
 mod isolation_bounds;
 mod judged_members;
+mod kinds_agree;
 mod long_histories;
 mod loose_tolerance;
 mod member_capacity;
