@@ -1,15 +1,17 @@
 //! `[[building]]`: what frames and shear buildings have in common.
 
+use std::collections::BTreeMap;
+
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
 use jostle::{
     AcrossBase, Base, Building, Damping, Gravity, MassDamping, Model, PlanPoint,
-    ProportionalDamping, Structure, Sway,
+    ProportionalDamping, Structure, Sway, Tiers,
 };
 
 use super::damper::{self, Damper};
 use super::places::is_by_place;
-use super::reinforced::{self, KnownMembers, ReinforcedInPlan};
+use super::reinforced::{self, KnownMembers, ProfiledMember, ReinforcedInPlan};
 use super::{
     codes, frame, given, given_in_plan, hinges, isolation, joint, plan, plan_frames,
     rotation_limits, shear, shear_failure, soil, soil_spring,
@@ -164,6 +166,7 @@ fn read(
             Kind::Frame => {}
         },
     }
+    let no_loads = BTreeMap::new();
     let (mut damped, mut bars_in_plan) = (None, ReinforcedInPlan::default());
     let structure = match kind {
         Kind::Shear if view.has("plan") => {
@@ -171,7 +174,7 @@ fn read(
                 *reader.bad(&field, "needs kind = \"frame\"") =
                     Some("write kind = \"frame\"; stiffness and elements may stay".into());
             }
-            let read = plan::read(reader, &view, plan::HeldBy::Springs);
+            let read = plan::read(reader, &view, plan::HeldBy::Springs, &no_loads);
             (*at, bars_in_plan) = (read.at, read.reinforced);
             Structure::Tiers(read.tiers)
         }
@@ -179,7 +182,7 @@ fn read(
             if !view.has("plan") {
                 reader.missing(&view, "plan", "add plan = [\"20 m\", \"12 m\"], or corners");
             }
-            let read = plan::read(reader, &view, plan::HeldBy::Frames);
+            let read = plan::read(reader, &view, plan::HeldBy::Frames, &no_loads);
             (*at, bars_in_plan) = (read.at, read.reinforced);
             Structure::Tiers(read.tiers)
         }
@@ -188,7 +191,7 @@ fn read(
                 *reader.bad(&field, "needs kind = \"frame\"") =
                     Some("leave out [[building.frame]]; walls can be [[building.element]]".into());
             }
-            let read = plan::read(reader, &view, plan::HeldBy::SpaceFrame);
+            let read = plan::read(reader, &view, plan::HeldBy::SpaceFrame, &no_loads);
             (*at, bars_in_plan) = (read.at, read.reinforced);
             Structure::Tiers(read.tiers)
         }
@@ -289,6 +292,9 @@ fn read(
                 .then(|| reinforced::members_in_plan(index, &firm, &bars_in_plan));
             let here = sound_members(reader, &view, here);
             if let Structure::Tiers(tiers) = &mut building.structure {
+                if let Some(here) = &here {
+                    load_hinges(reader, &view, kind, tiers, &here.profiled);
+                }
                 let here = here.as_ref().map(|here| &here.reinforced[..]);
                 let frames = &mut tiers.frames;
                 if kind == Kind::FramesInPlan {
@@ -312,9 +318,9 @@ fn read(
                 .then(|| reinforced::members(index, &firm, &reinforced));
             let here = sound_members(reader, &view, here);
             let laid = here.as_ref().map(|here| &here.reinforced[..]);
-            let hinges = stated
-                .as_ref()
-                .and_then(|field| hinges::read_frame(reader, field, frame, laid));
+            let hinges = stated.as_ref().and_then(|field| {
+                hinges::read_frame(reader, field, frame, &reinforced, here.as_ref())
+            });
             let hinges = joint::with_hinge(reader, &view, frame, hinges);
             let failing = reader
                 .get(&view, "shear_failure")
@@ -339,6 +345,35 @@ fn read(
         building.gravity.p_delta = building.hinges.is_some() || in_plan;
     }
     Some(building)
+}
+
+/// Lets the axial forces of steel columns of a plan reduce the moments at which they yield, now that these forces are known.
+fn load_hinges(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    kind: Kind,
+    tiers: &mut Tiers,
+    profiled: &[ProfiledMember],
+) {
+    let held_by = match kind {
+        Kind::FramesInPlan => plan::HeldBy::Frames,
+        _ => plan::HeldBy::SpaceFrame,
+    };
+    let loads = profiled.iter().filter(|member| member.compression != 0.0);
+    let loads = loads.map(|member| (member.name.clone(), member.compression));
+    let loads: BTreeMap<String, f64> = loads.collect();
+    if loads.is_empty() || !tiers.may_yield() {
+        return;
+    }
+    let loaded = plan::read(reader, view, held_by, &loads).tiers;
+    for (frame, loaded) in tiers.frames.iter_mut().zip(loaded.frames) {
+        frame.hinges.columns = loaded.hinges.columns;
+    }
+    if let (Some(frame), Some(loaded)) = (&mut tiers.space_frame, loaded.space_frame) {
+        for (member, loaded) in frame.members.iter_mut().zip(loaded.members) {
+            member.hinges = loaded.hinges;
+        }
+    }
 }
 
 /// Members of known strength of a building; notes why they are not known.

@@ -8,12 +8,12 @@ use jostle::hysteresis::{
 };
 use jostle::{ColumnFibres, Frame, FrameHinges, FramePlace, Hinges, Shear};
 use jostle_section::formula::Member;
-use jostle_section::{EndCurve, Options};
+use jostle_section::{EndCurve, FORMULA_POST_YIELD, Options};
 
 use super::building::{has_length, per_storey};
 use super::fibre_hinges;
 use super::frame_members::filled;
-use super::reinforced::ReinforcedMember;
+use super::reinforced::{KnownMembers, ProfiledMember, Reinforced, ReinforcedMember};
 use super::rigid_ends;
 use super::surface_hinges;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
@@ -174,22 +174,24 @@ pub(super) fn read_initial(reader: &mut Reader<'_>, view: &View<'_>) -> Option<I
     }
 }
 
-/// Hinges of a frame. `members` are its reinforced members; `None` after faults elsewhere.
+/// Hinges of a frame. `members` are those of known strength; `None` after faults elsewhere.
 pub(super) fn read_frame(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     frame: &Frame,
-    members: Option<&[ReinforcedMember]>,
+    laid: &Reinforced,
+    members: Option<&KnownMembers>,
 ) -> Option<Hinges> {
     let view = reader.open(field, &[Section::Hinges])?;
     let on_surface = surface_hinges::asked(reader, &view);
     if !on_surface {
         surface_hinges::refuse(reader, &view, false);
     }
+    let with_bars = members.map(|members| &members.reinforced[..]);
     let fibres = if on_surface {
-        Some(surface_hinges::read(reader, field, &view, frame, members))
+        Some(surface_hinges::read(reader, field, &view, frame, with_bars))
     } else if fibre_hinges::asked(reader, &view) {
-        Some(fibre_hinges::read(reader, field, &view, frame, members))
+        Some(fibre_hinges::read(reader, field, &view, frame, with_bars))
     } else {
         fibre_hinges::refuse(reader, &view);
         None
@@ -238,10 +240,15 @@ pub(super) fn read_frame(
         let rule = if on_surface { "surface" } else { "fibre" };
         fibre_hinges::say_either(reader, &field, rule);
     }
-    let (columns, beams) = (
-        read_members(reader, &view, "column", frame, rule, initial),
-        read_members(reader, &view, "beam", frame, rule, initial),
-    );
+    let [columns, beams] = [(Member::Column, "column"), (Member::Beam, "beam")].map(|kind| {
+        let of = OfKind {
+            kind,
+            frame,
+            has_profile: laid.has_profile(kind.0),
+            profiled: members.map(|members| &members.profiled[..]),
+        };
+        of.read(reader, &view, rule, initial)
+    });
     if fibres.is_none() && !view.has("column") && !view.has("beam") {
         *reader.bad(field, "has no moments") = Some("add column or beam = { cracking = \"120 kN.m\", yield = \"400 kN.m\", post_cracking = 0.3, post_yield = 0.02 }, or from = \"section\"".into());
     }
@@ -303,64 +310,161 @@ impl Initial {
     }
 }
 
-/// Hinges of all columns or beams; empty if there are none, `None` after a fault.
-fn read_members(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    key: &'static str,
-    frame: &Frame,
-    rule: Option<HysteresisRule>,
-    initial: Option<Initial>,
-) -> Option<Vec<Vec<Hysteresis>>> {
-    let storeys = frame.storey_heights.len();
-    let Some(field) = reader.get(view, key) else {
-        return Some(Vec::new());
-    };
-    let entries = field.entries();
-    if let Some(entries) = &entries {
-        has_length(reader, &field, entries.len(), Some(storeys))?;
+/// Corners of both sides of a hinge as a table states them.
+#[derive(Clone, Copy)]
+pub(super) struct Stated {
+    sides: [Corners; 2],
+    /// Sides without a yield moment, which is that of the profile of the member.
+    of_profile: [bool; 2],
+}
+
+impl Stated {
+    pub(super) fn needs_profile(&self) -> bool {
+        self.of_profile.contains(&true)
     }
-    let single = std::slice::from_ref(&field);
-    let tables = entries.as_deref().unwrap_or(single);
-    let read: Vec<_> = tables
-        .iter()
-        .map(|table| {
-            let view = reader.open(table, &[Section::Hinge])?;
-            let rigid = initial == Some(Initial::Rigid);
-            read_moments(reader, table, &view, None, rule, rigid)
-        })
-        .collect();
-    let (rule, initial) = (rule?, initial?);
-    let mut rows = Vec::new();
-    for storey in 0..storeys {
-        let at = if entries.is_some() { storey } else { 0 };
-        let sides = read[at]?;
-        let lengths = rigid_ends::bending_lengths(frame, key, storey);
-        let mut row = Vec::new();
-        for (place, length) in lengths.into_iter().enumerate() {
-            // Where there is no member, its hinge has no part.
-            let section = match key {
-                "column" => frame.column(storey, place).or(frame.columns.get(storey)),
-                _ => frame.beam(storey, place).or(frame.beams.get(storey)),
-            };
-            let stiffness = initial.stiffness(section?.flexural_rigidity, length);
-            let [a, b] = sides.map(|side| match rule {
-                HysteresisRule::Elastic => side,
-                _ => initial.ratios(side),
-            });
-            let spring = Backbone::from_forces(stiffness, a, b)
-                .and_then(|backbone| Hysteresis::new(rule, backbone));
-            match spring {
-                Ok(spring) => row.push(spring),
-                Err(faults) => {
-                    note(reader, &tables[at], faults);
-                    return None;
-                }
+
+    /// The hinge. `moment`: that at which the profile yields, where it is needed.
+    pub(super) fn spring(
+        &self,
+        rule: HysteresisRule,
+        initial: Initial,
+        stiffness: f64,
+        moment: Option<f64>,
+    ) -> Result<Hysteresis, Vec<SpringFault>> {
+        let mut sides = self.sides;
+        if rule != HysteresisRule::Elastic {
+            sides = sides.map(|side| initial.ratios(side));
+        }
+        for (side, of_profile) in sides.iter_mut().zip(self.of_profile) {
+            if let (true, Some(moment)) = (of_profile, moment) {
+                *side = match rule {
+                    HysteresisRule::Bilinear => Corners::bilinear(moment, side.post_yield),
+                    _ => Corners {
+                        yielding: moment,
+                        ..*side
+                    },
+                };
             }
         }
-        rows.push(row);
+        let [a, b] = sides;
+        Backbone::from_forces(stiffness, a, b).and_then(|backbone| Hysteresis::new(rule, backbone))
     }
-    Some(rows)
+}
+
+/// What a hinge without a yield moment needs.
+pub(super) const YIELDS_WHERE: &str = "add yield = \"400 kN.m\"; or yield_strength = \"355 MPa\" beside profile, which then yields at its plastic moment";
+
+/// Columns or beams of a frame.
+struct OfKind<'a> {
+    kind: (Member, &'static str),
+    frame: &'a Frame,
+    /// Whether any is of a profile whose strength is known.
+    has_profile: bool,
+    /// All members of such profiles; `None` after faults elsewhere.
+    profiled: Option<&'a [ProfiledMember]>,
+}
+
+impl OfKind<'_> {
+    /// Their hinges; empty if there are none, `None` after a fault.
+    fn read(
+        &self,
+        reader: &mut Reader<'_>,
+        view: &View<'_>,
+        rule: Option<HysteresisRule>,
+        initial: Option<Initial>,
+    ) -> Option<Vec<Vec<Hysteresis>>> {
+        let (frame, (member, key)) = (self.frame, self.kind);
+        let storeys = frame.storey_heights.len();
+        let Some(field) = reader.get(view, key) else {
+            return Some(Vec::new());
+        };
+        let entries = field.entries();
+        if let Some(entries) = &entries {
+            has_length(reader, &field, entries.len(), Some(storeys))?;
+        }
+        let single = std::slice::from_ref(&field);
+        let tables = entries.as_deref().unwrap_or(single);
+        let read: Vec<_> = tables
+            .iter()
+            .map(|table| {
+                let view = reader.open(table, &[Section::Hinge])?;
+                let asked = Asked {
+                    rule,
+                    rigid: initial == Some(Initial::Rigid),
+                    has_profile: self.has_profile,
+                };
+                read_moments(reader, table, &view, None, asked)
+            })
+            .collect();
+        let (rule, initial) = (rule?, initial?);
+        let mut rows = Vec::new();
+        for storey in 0..storeys {
+            let at = if entries.is_some() { storey } else { 0 };
+            let stated = read[at]?;
+            let lengths = rigid_ends::bending_lengths(frame, key, storey);
+            let mut row = Vec::new();
+            for (place, length) in lengths.into_iter().enumerate() {
+                let (own, exists) = match member {
+                    Member::Column => (
+                        frame.column(storey, place).or(frame.columns.get(storey)),
+                        frame.bare_column(storey, place).is_some(),
+                    ),
+                    Member::Beam => (
+                        frame.beam(storey, place).or(frame.beams.get(storey)),
+                        frame.bare_beam(storey, place).is_some(),
+                    ),
+                };
+                let moment = match stated.needs_profile() {
+                    true if exists => {
+                        Some(self.yield_moment(reader, &tables[at], [storey + 1, place + 1])?)
+                    }
+                    // Where there is no member, its hinge has no part.
+                    true => {
+                        row.push(None);
+                        continue;
+                    }
+                    false => None,
+                };
+                let stiffness = initial.stiffness(own?.flexural_rigidity, length);
+                match stated.spring(rule, initial, stiffness, moment) {
+                    Ok(spring) => row.push(Some(spring)),
+                    Err(faults) => {
+                        note(reader, &tables[at], faults);
+                        return None;
+                    }
+                }
+            }
+            rows.push(row);
+        }
+        Some(filled(rows))
+    }
+
+    /// Yield moment of the profile at a place \[N·m\]; `None` after a fault.
+    fn yield_moment(
+        &self,
+        reader: &mut Reader<'_>,
+        table: &Field<'_>,
+        place: [usize; 2],
+    ) -> Option<f64> {
+        let (kind, word) = self.kind;
+        let mut members = self.profiled?.iter();
+        let found = members.find(|member| member.member == kind && member.place == place);
+        let whose = format!("{word} {} of storey {}", place[1], place[0]);
+        let Some(member) = found else {
+            *reader.bad(
+                table,
+                format!("has no yield, and {whose} no yield_strength"),
+            ) = Some(YIELDS_WHERE.into());
+            return None;
+        };
+        match member.yield_moment() {
+            Ok(moment) => Some(moment),
+            Err(problem) => {
+                reader.bad(table, format!("{whose}: {problem}"));
+                None
+            }
+        }
+    }
 }
 
 /// Keys of a hinge, with possible values.
@@ -383,15 +487,30 @@ fn read_numbers(reader: &mut Reader<'_>, view: &View<'_>) -> [Option<Option<f64>
     })
 }
 
+/// What is known of hinges before their moments.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    /// `None` after a fault.
+    pub(super) rule: Option<HysteresisRule>,
+    /// Whether ratios are those of hinge and member together.
+    pub(super) rigid: bool,
+    /// Whether a profile may say where it yields.
+    pub(super) has_profile: bool,
+}
+
 /// Moments and ratios of both sides; `None` after a fault. `view`: the table of `field`. What it lacks is that of `beside`.
 pub(super) fn read_moments(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     view: &View<'_>,
     beside: Option<&View<'_>>,
-    rule: Option<HysteresisRule>,
-    rigid: bool,
-) -> Option<[Corners; 2]> {
+    asked: Asked,
+) -> Option<Stated> {
+    let Asked {
+        rule,
+        rigid,
+        has_profile,
+    } = asked;
     let mut common = read_numbers(reader, view);
     if let Some(beside) = beside {
         let others = read_numbers(reader, beside);
@@ -407,7 +526,10 @@ pub(super) fn read_moments(
     });
     let rule = rule?;
     if rule == HysteresisRule::Elastic {
-        return Some([Corners::bilinear(1.0, 1.0); 2]);
+        return Some(Stated {
+            sides: [Corners::bilinear(1.0, 1.0); 2],
+            of_profile: [false; 2],
+        });
     }
     let bilinear = rule == HysteresisRule::Bilinear;
     if bilinear {
@@ -421,6 +543,7 @@ pub(super) fn read_moments(
         }
     }
     let one_for_both = subs.iter().all(Option::is_none);
+    let mut of_profile = [false; 2];
     let sides = [0, 1].map(|side| {
         let sub = subs[side].as_ref();
         let mut values = [f64::NAN; 4];
@@ -435,11 +558,16 @@ pub(super) fn read_moments(
             {
                 Some(Some(value)) => values[index] = value,
                 Some(None) => complete = false,
+                None if has_profile && key == "yield" => of_profile[side] = true,
                 None => {
                     complete = false;
                     if side == 0 || !one_for_both {
                         let place = sub.map_or(view, |(sub, _)| sub);
-                        reader.missing(place, key, format!("add {key} = {example}"));
+                        let remedy = match key {
+                            "yield" => YIELDS_WHERE.to_owned(),
+                            _ => format!("add {key} = {example}"),
+                        };
+                        reader.missing(place, key, remedy);
                     }
                 }
             }
@@ -464,7 +592,7 @@ pub(super) fn read_moments(
             Some("give ratios below 1, such as post_cracking = 0.3".into());
         return None;
     }
-    Some(sides)
+    Some(Stated { sides, of_profile })
 }
 
 /// Notes the faults of a spring where its numbers stand.
@@ -515,13 +643,13 @@ struct Wanted<'a> {
     method: &'a str,
 }
 
-/// Hinges from the reinforcement of the members.
+/// Hinges from the reinforcement or the profiles of the members.
 fn of_sections(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     frame: &Frame,
     wanted: &Wanted<'_>,
-    members: &[ReinforcedMember],
+    members: &KnownMembers,
 ) -> Option<FrameHinges> {
     let Wanted {
         kinds,
@@ -537,21 +665,21 @@ fn of_sections(
             Member::Column => (frame.lines(), frame.bare_members()[0]),
             Member::Beam => (frame.spans.len(), frame.bare_members()[1]),
         };
-        let of_kind: Vec<_> = members
-            .iter()
-            .filter(|member| member.member == kind)
-            .collect();
-        if of_kind.len() != count {
-            let some = if of_kind.is_empty() {
+        let with_bars = members.reinforced.iter();
+        let with_bars: Vec<_> = with_bars.filter(|member| member.member == kind).collect();
+        let profiled = members.profiled.iter();
+        let profiled: Vec<_> = profiled.filter(|member| member.member == kind).collect();
+        if with_bars.len() + profiled.len() != count {
+            let some = if with_bars.is_empty() && profiled.is_empty() {
                 "no"
             } else {
                 "not every"
             };
             *reader.bad(
                 field,
-                format!("takes its moments from the sections, but {some} {word} has bars"),
+                format!("takes its moments from the sections, but {some} {word} has bars or yield_strength"),
             ) = Some(format!(
-                "add {}",
+                "add {}; or yield_strength = \"355 MPa\" to a profile",
                 match kind {
                     Member::Column =>
                         "steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column",
@@ -565,7 +693,8 @@ fn of_sections(
         let mut said: Vec<String> = Vec::new();
         let mut rows: Vec<Vec<Option<Hysteresis>>> = vec![vec![None; per_storey]; storeys];
         let mut known: Vec<(&ReinforcedMember, Hysteresis)> = Vec::new();
-        for member in of_kind {
+        let mut springs: Vec<([usize; 2], Result<Hysteresis, String>)> = Vec::new();
+        for member in with_bars {
             let alike = known.iter().find(|(other, _)| {
                 let same_load = other.compression == member.compression;
                 same_load
@@ -577,18 +706,18 @@ fn of_sections(
                 Some((_, spring)) => Ok(*spring),
                 None => spring_of(member, rule, initial, method),
             };
+            if let (None, Ok(spring)) = (alike, &spring) {
+                known.push((member, *spring));
+            }
+            springs.push(([member.floor, member.place], spring));
+        }
+        let profiled = profiled.into_iter();
+        springs.extend(profiled.map(|member| (member.place, of_profile(member, rule, initial))));
+        for ([floor, place], spring) in springs {
             match spring {
-                Ok(spring) => {
-                    if alike.is_none() {
-                        known.push((member, spring));
-                    }
-                    rows[member.floor - 1][member.place - 1] = Some(spring);
-                }
+                Ok(spring) => rows[floor - 1][place - 1] = Some(spring),
                 Err(problem) => {
-                    let problem = format!(
-                        "{word} {} of storey {}: {problem}",
-                        member.place, member.floor
-                    );
+                    let problem = format!("{word} {place} of storey {floor}: {problem}");
                     sound = false;
                     if said.is_empty() {
                         reader.bad(field, problem.clone());
@@ -604,6 +733,28 @@ fn of_sections(
         }
     }
     sound.then_some(hinges)
+}
+
+/// The hinge of a member of steel: bilinear, with the slope after yield of reinforced ones by formula.
+fn of_profile(
+    member: &ProfiledMember,
+    rule: HysteresisRule,
+    initial: Initial,
+) -> Result<Hysteresis, String> {
+    let stiffness = initial.stiffness(member.rigidity, member.length);
+    let after = FORMULA_POST_YIELD / (1.0 - FORMULA_POST_YIELD);
+    let ratio = 6.0 * member.rigidity / member.length * after / stiffness;
+    let corners = Corners::bilinear(member.yield_moment()?, ratio);
+    Backbone::from_forces(stiffness, corners, corners)
+        .and_then(|backbone| Hysteresis::new(rule, backbone))
+        .map_err(first_of)
+}
+
+/// The first of some faults, in words.
+fn first_of(faults: Vec<SpringFault>) -> String {
+    faults.first().map_or_else(String::new, |fault| {
+        format!("{}: {}", fault.quantity, fault.problem)
+    })
 }
 
 /// The hinge of a reinforced member.
@@ -629,25 +780,20 @@ fn spring_of(
         ),
     };
     let stiffness = initial.stiffness(member.rigidity, member.length);
-    let first = |faults: Vec<SpringFault>| {
-        faults.first().map_or_else(String::new, |fault| {
-            format!("{}: {}", fault.quantity, fault.problem)
-        })
-    };
     let backbone = curve
         .hinge(6.0 * member.rigidity / member.length, stiffness)
-        .map_err(first)?;
+        .map_err(first_of)?;
     let backbone = if rule == HysteresisRule::Bilinear {
         // Without a cracking point.
         let corners = Side::BOTH.map(|side| {
             let given = backbone.side(side);
             Corners::bilinear(given.yielding.force, given.post_yield / stiffness)
         });
-        Backbone::from_forces(stiffness, corners[0], corners[1]).map_err(first)?
+        Backbone::from_forces(stiffness, corners[0], corners[1]).map_err(first_of)?
     } else {
         backbone
     };
-    Hysteresis::new(rule, backbone).map_err(first)
+    Hysteresis::new(rule, backbone).map_err(first_of)
 }
 
 /// Corners of a rule, of which bilinear ones have no cracking point and elastic ones none at all; `None` where a number that it needs is

@@ -1,5 +1,7 @@
 //! Plans of buildings: floors that move in both horizontal directions and turn.
 
+use std::collections::BTreeMap;
+
 use jostle::hysteresis::Hysteresis;
 use jostle::interface::narrowest_gap;
 use jostle::linear::sort_by_key;
@@ -39,7 +41,14 @@ pub(super) enum HeldBy {
 }
 
 /// Reads the keys of a building that has a plan. After a fault, harmless values are used.
-pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) -> Planned {
+///
+/// `loads`: compressions of columns by name, as far as they are known \[N\].
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    held_by: HeldBy,
+    loads: &BTreeMap<String, f64>,
+) -> Planned {
     let has_frames = held_by != HeldBy::Springs;
     let grid = (held_by == HeldBy::SpaceFrame).then(|| Grid::read(reader, view));
     if grid
@@ -162,12 +171,12 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
     };
     let storey_heights = heights.unwrap_or_else(|| vec![DEFAULT_STOREY_HEIGHT; count]);
     let frames = match held_by {
-        HeldBy::Frames => plan_frames::read_all(reader, view, &storey_heights),
+        HeldBy::Frames => plan_frames::read_all(reader, view, &storey_heights, loads),
         HeldBy::Springs | HeldBy::SpaceFrame => Vec::new(),
     };
     let (frames, of_frames) = frames.into_iter().unzip();
     let space_frame =
-        grid.map(|grid| space_frame::read(reader, view, grid, &plans, &storey_heights));
+        grid.map(|grid| space_frame::read(reader, view, grid, &plans, &storey_heights, loads));
     let (space_frame, of_members) = match space_frame {
         Some(read) => {
             for (index, floor) in floors.iter_mut().enumerate() {

@@ -1,13 +1,15 @@
 //! `[[building.frame]]`: plane frames at lines of a plan.
 
-use jostle::{FrameHinges, Hinges, PlanFrame, PlanPoint};
+use std::collections::BTreeMap;
+
+use jostle::{Frame, FrameHinges, Hinges, PlanFrame, PlanPoint};
 
 use super::building::read_base;
 use super::frame;
 use super::hinges;
 use super::joint;
 use super::plan::pair;
-use super::reinforced::{self, Reinforced, ReinforcedMember};
+use super::reinforced::{self, KnownMembers, Reinforced, ReinforcedMember};
 use super::shear_failure;
 use crate::keys::Section;
 use crate::quantity::Dimension;
@@ -21,6 +23,7 @@ pub(super) fn read_all(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     storey_heights: &[f64],
+    loads: &BTreeMap<String, f64>,
 ) -> Vec<(PlanFrame, Reinforced)> {
     let entries = reader
         .get(view, "frame")
@@ -38,7 +41,7 @@ pub(super) fn read_all(
         let Some(view) = reader.open(entry, &[Section::PlanFrame]) else {
             continue;
         };
-        frames.extend(read(reader, &view, index, storey_heights));
+        frames.extend(read(reader, &view, index, storey_heights, loads));
         if frames.len() > MOST_FRAMES {
             reader.bad(
                 entry,
@@ -87,6 +90,7 @@ fn read(
     view: &View<'_>,
     index: usize,
     storey_heights: &[f64],
+    loads: &BTreeMap<String, f64>,
 ) -> Vec<(PlanFrame, Reinforced)> {
     let name = reader
         .get(view, "name")
@@ -119,26 +123,25 @@ fn read(
     let frame = frame::read_in_plan(reader, view, &storey_heights[..storeys]);
     let noted = reader.count_faults();
     let reinforced = reinforced::read(reader, view, &frame);
-    let members =
-        (reader.count_faults() == noted).then(|| reinforced::unloaded(&frame, &reinforced));
+    let is_sound = reader.count_faults() == noted;
     let base = read_base(reader, view, false);
-    let hinges = reader.get(view, "hinges").and_then(|field| {
-        let table = reader.reopen(&field, &[Section::Hinges]);
-        if let Some(from) = table.as_ref().and_then(|table| reader.get(table, "from")) {
-            *reader.bad(&from, "is not possible for frames in plan yet") =
-                Some("give the moments of column and beam".into());
-            return None;
-        }
-        match hinges::read_frame(reader, &field, &frame, members.as_deref())? {
-            Hinges::Frame(hinges) => Some(hinges),
-            Hinges::Storeys(_) => None,
-        }
+    let single = places.len() == 1;
+    let names = (1..=places.len()).map(|number| match single {
+        true => name.clone(),
+        false => format!("{name}.{number}"),
     });
-    let hinges = joint::with_hinge(reader, view, &frame, hinges.map(Hinges::Frame));
-    let hinges = match hinges {
-        Some(Hinges::Frame(hinges)) => hinges,
-        _ => FrameHinges::default(),
-    };
+    let names: Vec<String> = names.collect();
+    // Equal frames differ by the loads of their columns alone.
+    let count = if loads.is_empty() { 1 } else { names.len() };
+    let mut hinges: Vec<FrameHinges> = Vec::new();
+    for name in names.iter().take(count) {
+        let noted = reader.count_faults();
+        let members = is_sound.then(|| reinforced::loaded(&frame, &reinforced, name, loads));
+        hinges.push(read_hinges(reader, view, &frame, &reinforced, members));
+        if reader.count_faults() > noted {
+            break;
+        }
+    }
     let lines = match reader.get(view, "lines") {
         Some(field) => {
             let names = read_lines(reader, &field);
@@ -150,25 +153,45 @@ fn read(
         }
         None => Vec::new(),
     };
-    let single = places.len() == 1;
-    let numbered = places.into_iter().enumerate();
-    numbered
-        .map(|(number, at)| {
+    let places = names.into_iter().zip(places).enumerate();
+    places
+        .map(|(number, (name, at))| {
+            let own = hinges.get(number).or(hinges.first());
             let frame = PlanFrame {
-                name: match single {
-                    true => name.clone(),
-                    false => format!("{name}.{}", number + 1),
-                },
+                name,
                 at,
                 direction: direction.unwrap_or([1.0, 0.0]),
                 lines: lines.clone(),
                 base,
-                hinges: hinges.clone(),
+                hinges: own.cloned().unwrap_or_default(),
                 frame: frame.clone(),
             };
             (frame, reinforced.clone())
         })
         .collect()
+}
+
+/// Hinges of the members and connections of a frame; none after faults.
+fn read_hinges(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    frame: &Frame,
+    reinforced: &Reinforced,
+    members: Option<KnownMembers>,
+) -> FrameHinges {
+    let hinges = reader.get(view, "hinges").and_then(|field| {
+        let table = reader.reopen(&field, &[Section::Hinges]);
+        if let Some(from) = table.as_ref().and_then(|table| reader.get(table, "from")) {
+            *reader.bad(&from, "is not possible for frames in plan yet") =
+                Some("give the moments of column and beam".into());
+            return None;
+        }
+        hinges::read_frame(reader, &field, frame, reinforced, members.as_ref())
+    });
+    match joint::with_hinge(reader, view, frame, hinges) {
+        Some(Hinges::Frame(hinges)) => hinges,
+        _ => FrameHinges::default(),
+    }
 }
 
 /// One place, or a list of places.

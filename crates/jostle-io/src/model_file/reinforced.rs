@@ -11,7 +11,7 @@ use jostle::{
 use jostle_section::capacity::{ShearRule, SteelMember};
 use jostle_section::formula::Member;
 use jostle_section::{
-    BarsError, Concrete, Reinforcement, Section, SectionFault, Steel, StrengthLevel, Ties,
+    Axis, BarsError, Concrete, Reinforcement, Section, SectionFault, Steel, StrengthLevel, Ties,
 };
 
 use super::places::{Layout, sections};
@@ -64,6 +64,8 @@ pub struct ProfiledMember {
     pub building: usize,
     /// Column or beam.
     pub member: Member,
+    /// Storey and line of a column, floor and bay of a beam, from 1; as those of reinforced members.
+    pub place: [usize; 2],
     /// Its name within the building, such as `column.1.2`.
     pub name: String,
     /// Its profile and steel.
@@ -72,8 +74,39 @@ pub struct ProfiledMember {
     pub compression: f64,
     /// Length between the axes \[m\].
     pub length: f64,
+    /// E I as the frame has it \[N·m²\].
+    pub rigidity: f64,
     /// Whether it bends in two planes.
     pub bends_across: bool,
+}
+
+impl ProfiledMember {
+    /// Moment at which its ends yield \[N·m\].
+    ///
+    /// # Errors
+    /// In words.
+    pub(super) fn yield_moment(&self) -> Result<f64, String> {
+        yield_moment(&self.steel, self.steel.axis, self.compression)
+    }
+}
+
+/// Moment of a hinge of steel about an axis, under an axial compression \[N·m, N\].
+///
+/// # Errors
+/// In words.
+pub(super) fn yield_moment(
+    steel: &SteelMember,
+    axis: Axis,
+    compression: f64,
+) -> Result<f64, String> {
+    steel.hinge_moment(axis, compression).ok_or_else(|| {
+        let [load, most] = [compression, steel.yield_strength * steel.profile.area()];
+        format!(
+            "the axial load of {:.0} kN exceeds the {:.0} kN at which the whole profile yields; take a larger one",
+            1e-3 * load,
+            1e-3 * most
+        )
+    })
 }
 
 /// Members of known strength.
@@ -416,9 +449,15 @@ pub(super) fn members(
     Ok(of_frame(index, "", frame, reinforced, load))
 }
 
-/// Those of a frame whose axial forces do not count.
-pub(super) fn unloaded(frame: &Frame, reinforced: &Reinforced) -> Vec<ReinforcedMember> {
-    of_frame(0, "", frame, reinforced, |_, _| 0.0).reinforced
+/// Those of a frame in a plan. `loads`: compressions of columns by name, zero where there is none \[N\].
+pub(super) fn loaded(
+    frame: &Frame,
+    reinforced: &Reinforced,
+    name: &str,
+    loads: &BTreeMap<String, f64>,
+) -> KnownMembers {
+    let load = |name: &str, _: FramePlace| loads.get(name).copied().unwrap_or(0.0);
+    of_frame(0, &format!("{name}."), frame, reinforced, load)
 }
 
 /// The same of a sound building with a plan: of its frames at lines of the plan, and of its space frame.
@@ -468,10 +507,12 @@ pub(super) fn members_in_plan(
                             true => Member::Column,
                             false => Member::Beam,
                         },
+                        place: place_of(frame, member.place),
                         name,
                         steel: *steel,
                         compression: if is_column { compression } else { 0.0 },
                         length: frame.length(member.place, heights),
+                        rigidity: member.section.flexural_rigidity[0],
                         bends_across: is_column,
                     });
                 }
@@ -479,6 +520,12 @@ pub(super) fn members_in_plan(
         }
     }
     Ok(members)
+}
+
+/// Storey and number of the crossing at which a member of a space frame begins, from 1.
+fn place_of(frame: &SpaceFrame, place: SpacePlace) -> [usize; 2] {
+    let [[x, y], _] = place.crossings();
+    [place.storey() + 1, y * frame.lines_x.len() + x + 1]
 }
 
 /// A reinforced member of a space frame that bears a compression \[N\].
@@ -511,6 +558,7 @@ fn in_space(
         sizes.fold(0.0, f64::max)
     };
     let [first, last] = place.crossings();
+    let [floor, number] = place_of(frame, place);
     let clear_along = |axis: PlanAxis| {
         let below = match is_column {
             true => storey.checked_sub(1),
@@ -529,8 +577,8 @@ fn in_space(
             true => Member::Column,
             false => Member::Beam,
         },
-        floor: storey + 1,
-        place: first[1] * frame.lines_x.len() + first[0] + 1,
+        floor,
+        place: number,
         name,
         section: read.section.clone(),
         compression: if is_column { compression } else { 0.0 },
@@ -544,6 +592,16 @@ fn in_space(
 }
 
 impl Reinforced {
+    /// Whether a member of a kind is of a profile whose strength is known.
+    pub(super) fn has_profile(&self, member: Member) -> bool {
+        let list = match member {
+            Member::Column => &self.columns,
+            Member::Beam => &self.beams,
+        };
+        let mut laid = list.iter().flatten().flatten();
+        laid.any(|laid| matches!(laid.known, KnownSection::Profile(_)))
+    }
+
     /// Whether a column takes its load from gravity.
     fn asks_gravity(&self) -> bool {
         let mut laid = self.columns.iter().flatten().flatten();
@@ -610,10 +668,12 @@ fn of_frame(
                 members.profiled.push(ProfiledMember {
                     building: index,
                     member,
+                    place: [floor, at],
                     name,
                     steel: *steel,
                     compression,
                     length,
+                    rigidity: section.flexural_rigidity,
                     bends_across: false,
                 });
                 continue;

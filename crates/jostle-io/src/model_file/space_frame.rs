@@ -7,6 +7,7 @@ use jostle::{
     DiagonalPlace, PlanAxis, PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
 };
 use jostle_section::Span;
+use jostle_section::capacity::SteelMember;
 
 use super::brace::{self, Bays, Widths};
 use super::building::per_storey;
@@ -166,13 +167,14 @@ pub(super) struct ReadFrame {
 }
 
 /// Reads columns and beams, and the sections of those that have bars. `plans`: those of the floors in the axes of the grid; what lies
-/// outside of them does not exist.
+/// outside of them does not exist. `loads`: compressions of columns by name, as far as they are known \[N\].
 pub(super) fn read(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     grid: Grid,
     plans: &[Vec<PlanPoint>],
     storey_heights: &[f64],
+    loads: &BTreeMap<String, f64>,
 ) -> ReadFrame {
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
@@ -247,11 +249,15 @@ pub(super) fn read(
     space_walls::add_to(walls, &mut frame);
     let panels = add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
     if let Some(hinges) = hinges {
+        let strengths = Strengths {
+            sections: &sections,
+            loads,
+        };
         add_hinges(
             reader,
             view,
             &hinges,
-            &own_moments,
+            (&own_moments, strengths),
             &mut frame,
             storey_heights,
         );
@@ -435,7 +441,7 @@ fn add_hinges(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     hinges: &SpaceHinges<'_>,
-    own_moments: &[Option<Moments<'_>>],
+    (own_moments, strengths): (&[Option<Moments<'_>>], Strengths<'_>),
     frame: &mut SpaceFrame,
     storey_heights: &[f64],
 ) {
@@ -449,7 +455,8 @@ fn add_hinges(
         return;
     }
     for (index, own_moment) in own_moments.iter().enumerate() {
-        let SpaceMember { place, section, .. } = frame.members[index];
+        let member = frame.members[index];
+        let place = member.place;
         let is_column = matches!(place, SpacePlace::Column { .. });
         let usual = || hinges.usual(is_column, place.storey());
         let Some(moments) = own_moment.as_ref().or_else(usual) else {
@@ -457,10 +464,31 @@ fn add_hinges(
         };
         let length = frame.clear_length(place, storey_heights);
         // A fault of one is that of all alike.
-        match hinges.springs(reader, moments, &section, length) {
+        let steel = strengths.steel(place);
+        match hinges.springs(reader, moments, &member, length, steel) {
             Ok(springs) => frame.members[index].hinges = springs,
             Err(()) => return,
         }
+    }
+}
+
+/// Sections of members of known strength, and the compressions of columns by name \[N\].
+struct Strengths<'a> {
+    sections: &'a BTreeMap<SpacePlace, KnownSection>,
+    loads: &'a BTreeMap<String, f64>,
+}
+
+impl Strengths<'_> {
+    /// The profile of a member, and its compression \[N\].
+    fn steel(&self, place: SpacePlace) -> Option<(&SteelMember, f64)> {
+        let KnownSection::Profile(steel) = self.sections.get(&place)? else {
+            return None;
+        };
+        let load = match place {
+            SpacePlace::Column { .. } => self.loads.get(&place.to_string()),
+            SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => None,
+        };
+        Some((steel, load.copied().unwrap_or(0.0)))
     }
 }
 
@@ -598,7 +626,7 @@ pub(super) fn read_hinge<'n>(
 ) -> Option<Moments<'n>> {
     let field = reader.get(view, "hinge")?;
     match hinges {
-        Some(hinges) => hinges.of_entry(reader, &field, sort == Sort::Column),
+        Some(hinges) => hinges.of_entry(reader, view, &field, sort == Sort::Column),
         None => {
             if !building.has("hinges") {
                 *reader.bad(&field, "needs a rule") =

@@ -1,17 +1,21 @@
 //! `hinges` of a space frame, and `hinge` of some of its columns and beams.
 
-use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-use jostle::{PlanAxis, SpaceSection};
+use jostle::hysteresis::{Hysteresis, HysteresisRule};
+use jostle::{PlanAxis, SpaceMember};
+use jostle_section::capacity::SteelMember;
 
 use super::building::has_length;
 use super::fibre_hinges::{self, AskedFibres};
-use super::hinges::{Initial, note, read_initial, read_moments, read_rule, read_rule_at};
+use super::hinges::{
+    Asked, Initial, Stated, YIELDS_WHERE, note, read_initial, read_moments, read_rule, read_rule_at,
+};
+use super::reinforced;
 use super::surface_hinges::{self, AskedSurfaces};
 use crate::keys::Section;
 use crate::reader::{Field, Reader, View};
 
 /// Moments of the hinges of a member: by plane of bending, with the table that has them; `None` stays elastic.
-pub(super) type Moments<'n> = [Option<([Corners; 2], Field<'n>)>; 2];
+pub(super) type Moments<'n> = [Option<(Stated, Field<'n>)>; 2];
 
 /// `hinges` of a building.
 pub(super) struct SpaceHinges<'n> {
@@ -82,10 +86,15 @@ impl<'n> SpaceHinges<'n> {
                 has_length(reader, &field, entries.len(), Some(storeys))?;
             }
             let tables = entries.unwrap_or_else(|| vec![field.clone()]);
-            let read = tables.iter().map(|table| {
-                let rigid = initial == Some(Initial::Rigid);
-                moments(reader, table, key == "column", rule, rigid)
-            });
+            let is_column = key == "column";
+            let asked = Asked {
+                rule,
+                rigid: initial == Some(Initial::Rigid),
+                has_profile: has_profile(reader, building, is_column),
+            };
+            let read = tables
+                .iter()
+                .map(|table| moments(reader, table, is_column, asked));
             let read: Vec<_> = read.collect();
             read.into_iter().collect()
         });
@@ -109,10 +118,11 @@ impl<'n> SpaceHinges<'n> {
         self.columns.is_empty() && self.beams.is_empty()
     }
 
-    /// Reads `hinge` of some members.
+    /// Reads `hinge` of some members, whose table is this.
     pub(super) fn of_entry(
         &self,
         reader: &mut Reader<'_>,
+        entry: &View<'_>,
         field: &Field<'n>,
         is_column: bool,
     ) -> Option<Moments<'n>> {
@@ -120,8 +130,12 @@ impl<'n> SpaceHinges<'n> {
             fibre_hinges::say_either(reader, field, name_of(self.fibres.is_some()));
             return None;
         }
-        let rigid = self.initial == Initial::Rigid;
-        moments(reader, field, is_column, Some(self.rule), rigid)
+        let asked = Asked {
+            rule: Some(self.rule),
+            rigid: self.initial == Initial::Rigid,
+            has_profile: entry.has("yield_strength"),
+        };
+        moments(reader, field, is_column, asked)
     }
 
     /// Moments of a column or a beam of a storey without a `hinge` of its own.
@@ -134,7 +148,7 @@ impl<'n> SpaceHinges<'n> {
         list.get(if list.len() > 1 { storey } else { 0 })
     }
 
-    /// The hinges of a member.
+    /// The hinges of a member. `steel`: its profile, if its strength is known, and the axial compression \[N\].
     ///
     /// # Errors
     /// Noted at the table of the moments.
@@ -142,27 +156,39 @@ impl<'n> SpaceHinges<'n> {
         &self,
         reader: &mut Reader<'_>,
         moments: &Moments<'n>,
-        section: &SpaceSection,
+        member: &SpaceMember,
         length: f64,
+        steel: Option<(&SteelMember, f64)>,
     ) -> Result<[Option<Hysteresis>; 2], ()> {
         let mut found = [None; 2];
         for (plane, moments) in moments.iter().enumerate() {
-            let Some((sides, field)) = moments else {
+            let Some((stated, field)) = moments else {
                 continue;
             };
-            let stiffness = self
-                .initial
-                .stiffness(section.flexural_rigidity[plane], length);
-            let [a, b] = sides.map(|side| {
-                if self.rule == HysteresisRule::Elastic {
-                    side
-                } else {
-                    self.initial.ratios(side)
+            let place = member.place;
+            let moment = match (stated.needs_profile(), steel) {
+                (false, _) => None,
+                (true, Some((steel, compression))) => {
+                    let axis = steel.axes()[plane];
+                    match reinforced::yield_moment(steel, axis, compression) {
+                        Ok(moment) => Some(moment),
+                        Err(problem) => {
+                            reader.bad(field, format!("{place}: {problem}"));
+                            return Err(());
+                        }
+                    }
                 }
-            });
-            let spring = Backbone::from_forces(stiffness, a, b)
-                .and_then(|backbone| Hysteresis::new(self.rule, backbone));
-            match spring {
+                (true, None) => {
+                    *reader.bad(
+                        field,
+                        format!("has no yield, and {place} no yield_strength"),
+                    ) = Some(YIELDS_WHERE.into());
+                    return Err(());
+                }
+            };
+            let rigidity = member.section.flexural_rigidity[plane];
+            let stiffness = self.initial.stiffness(rigidity, length);
+            match stated.spring(self.rule, self.initial, stiffness, moment) {
                 Ok(spring) => found[plane] = Some(spring),
                 Err(faults) => {
                     note(reader, field, faults);
@@ -172,6 +198,22 @@ impl<'n> SpaceHinges<'n> {
         }
         Ok(found)
     }
+}
+
+/// Whether a column, or a beam, of a building has a profile whose strength is given.
+fn has_profile(reader: &mut Reader<'_>, building: &View<'_>, is_column: bool) -> bool {
+    let (keys, sections): (&[&'static str], &'static [Section]) = match is_column {
+        true => (&["column"], &[Section::SpaceColumn]),
+        false => (&["beam_x", "beam_y"], &[Section::SpaceBeam]),
+    };
+    keys.iter().any(|key| {
+        let field = reader.get(building, key);
+        let tables = field.map(|field| field.entries().unwrap_or_else(|| vec![field]));
+        tables.into_iter().flatten().any(|table| {
+            let view = reader.quietly(|reader| reader.reopen(&table, sections));
+            view.is_some_and(|view| view.has("yield_strength"))
+        })
+    })
 }
 
 /// The rule of columns that follow their axial force.
@@ -187,8 +229,7 @@ fn moments<'n>(
     reader: &mut Reader<'_>,
     field: &Field<'n>,
     is_column: bool,
-    rule: Option<HysteresisRule>,
-    rigid: bool,
+    asked: Asked,
 ) -> Option<Moments<'n>> {
     let sections: &'static [Section] = if is_column {
         &[Section::ColumnHinge]
@@ -205,11 +246,11 @@ fn moments<'n>(
             ) = Some("give yield and the others without x and y".into());
             return None;
         }
-        let sides = read_moments(reader, field, &view, None, rule, rigid)?;
+        let sides = read_moments(reader, field, &view, None, asked)?;
         return Some([Some((sides, field.clone())), None]);
     }
     if axes.iter().all(Option::is_none) {
-        let sides = read_moments(reader, field, &view, None, rule, rigid)?;
+        let sides = read_moments(reader, field, &view, None, asked)?;
         return Some([0, 1].map(|_| Some((sides, field.clone()))));
     }
     for key in ["positive", "negative"] {
@@ -224,9 +265,8 @@ fn moments<'n>(
     for (axis, found) in axes.into_iter().zip(&mut found) {
         let Some(axis) = axis else { continue };
         let axis_view = reader.open(&axis, &[Section::Hinge]);
-        let sides = axis_view.and_then(|axis_view| {
-            read_moments(reader, &axis, &axis_view, Some(&view), rule, rigid)
-        });
+        let sides = axis_view
+            .and_then(|axis_view| read_moments(reader, &axis, &axis_view, Some(&view), asked));
         sound &= sides.is_some();
         *found = sides.map(|sides| (sides, axis));
     }

@@ -38,6 +38,7 @@ mod space_fibres;
 mod space_frames;
 mod space_surfaces;
 mod space_wall_fibres;
+mod steel_hinges;
 mod study_files;
 mod tables;
 mod usual_ranges;

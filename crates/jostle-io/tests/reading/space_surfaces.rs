@@ -1,8 +1,8 @@
 //! Columns of space frames that yield on a surface of axial force and both moments: the plane frame with the same columns, quarter turns,
-//! both solvers, a column that is pushed, what a file says, and refusals.
+//! both solvers, a column that is pushed, what a file says, and refusals. Plastic rotations and their limits, in a plane and in space.
 
 use jostle::pushover::{PushDirection, PushSettings, pushover};
-use jostle::results::summary::BuildingSummary;
+use jostle::results::summary::{BuildingSummary, RotationLevelsSummary};
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::{ColumnFibres, Solver, SpaceFrame, Structure, Summary};
 use jostle_testkit::compare::{close, near};
@@ -71,9 +71,15 @@ beam_y = {{ width = 0.3, depth = 0.5 }}
 }
 
 fn shaken(file: &str, solver: Option<Solver>) -> Summary {
+    shaken_until(file, solver, f64::INFINITY)
+}
+
+/// The same of a motion that ends at an instant \[s\].
+fn shaken_until(file: &str, solver: Option<Solver>, end: f64) -> Summary {
     let mut input = sound(file);
     input.model.analysis.solver = solver.or(input.model.analysis.solver);
-    let motion = input.ground_motion().expect("the record is built in");
+    let mut motion = input.ground_motion().expect("the record is built in");
+    motion.duration = motion.duration.min(end);
     let (_, outcome, summary) = run_and_summary(&input.model, &motion);
     let imbalance = outcome.energy.worst_imbalance;
     assert!(imbalance < 1e-6, "{imbalance:e}");
@@ -376,4 +382,159 @@ fn faults_of_surfaces_in_space_are_named() {
         let said = refusal(&good.replace(from, to));
         assert!(said.contains(problem), "{problem}: {said}");
     }
+}
+
+const LIMITS: &str = "[[building.rotation_limit]]\nof = \"columns\"\nlimits = { io = \"2 mrad\", ls = \"8 mrad\", cp = \"150 mrad\" }\n";
+
+fn levels(summary: &Summary) -> &RotationLevelsSummary {
+    let levels = only(summary).rotation_levels.as_ref();
+    levels.expect("it has limits")
+}
+
+const MOTION: &str = "motion = { record = \"el-centro-1940-ns\", pga = \"1.2 g\", duration = \"6 s\" }\nanalysis = { solver = \"riccati\", step = \"1 ms\", accept_unusual = true }\n";
+
+/// Of a cantilever under its weight the plastic rotation is its displacement without the elastic one, over its height. In space about
+/// either axis.
+#[test]
+fn plastic_rotations_are_displacements_without_their_elastic_part() {
+    let load = 2e5;
+    // The moment does not depend on the axial force, so that the end does not stretch as it turns.
+    let flat = |file: &str| {
+        let file = file.replace(
+            "\"-3 MN\", \"-1.2 MN\", \"0.8 MN\"",
+            "\"-3 MN\", \"-2.9 MN\", \"0.7 MN\", \"0.8 MN\"",
+        );
+        ["360", "240"].into_iter().fold(file, |file, moment| {
+            let [one, two] =
+                [1, 2].map(|count| vec![format!("\"{moment} kN.m\""); count].join(", "));
+            file.replace(&one, &two)
+        })
+    };
+    let plane = format!(
+        r#"{MOTION}[[building]]
+name = "A"
+kind = "frame"
+storeys = 1
+storey_height = 3.2
+spans = []
+density = 0
+elastic_modulus = "30 GPa"
+floor_mass = "20 t"
+floor_load = {load:?}
+column_segments = 1
+axial = {{ columns = "flexible", beams = "rigid" }}
+gravity = true
+p_delta = false
+column = {{ width = 0.4, depth = 0.5 }}
+hinges = {{ rule = "surface", length = 0.4, post_yield = 0.0, ends = "base", surface = {{ axial = ["-3 MN", "-1.2 MN", "0.8 MN"], moment = ["0 kN.m", "360 kN.m", "0 kN.m"] }} }}
+{LIMITS}"#
+    );
+    let space = |motion: &str| {
+        let motion = MOTION.replace("\"6 s\"", &format!("\"6 s\"{motion}"));
+        format!("{motion}{}{LIMITS}", cantilever(load, 1.5, ""))
+    };
+    let [along, across] = [0.4 * 0.125, 0.5 * 0.064].map(|cubes| 30e9 * cubes / 12.0);
+    let hard = |file: &str| file.replace("post_yield = 0.0", "post_yield = 0.03");
+    for (file, moment, rigidity, hardening) in [
+        (hard(&plane), 3.6e5, along, 0.03),
+        (plane, 3.6e5, along, 0.0),
+        (space(""), 3.6e5, along, 0.0),
+        (hard(&space("")), 3.6e5, along, 0.03),
+        (space(", angle = \"90 deg\""), 2.4e5, across, 0.0),
+    ] {
+        let file = flat(&file);
+        let summary = shaken(&file, None);
+        let floor = &only(&summary).floors.above[0];
+        let ends = match (&floor.in_plan, moment == 2.4e5) {
+            (Some(plan), true) => [
+                plan.displacement_across_max_m,
+                plan.displacement_across_min_m,
+            ],
+            _ => [
+                floor.response.displacement_max_m,
+                floor.response.displacement_min_m,
+            ],
+        };
+        // θ h = u − M h²/3EI with M = M_y + r k θ; the end has yielded at M_y/(1 − r) k.
+        let (k, give) = (rigidity / 0.4, 3.2 * 3.2 / (3.0 * rigidity));
+        let turned = (ends[0].max(-ends[1]) - moment * give) / (3.2 + hardening * k * give);
+        let due = turned - moment / ((1.0 - hardening) * k);
+        let found = levels(&summary);
+        assert!(due > 8e-3, "{due}");
+        assert_eq!(found.members, found.beyond_ls, "{found:?}");
+        assert_eq!(found.beyond_cp, 0);
+        for member in &found.list {
+            assert_eq!((member.at, member.measure), ("foot", "plastic"));
+            near(member.rotation_rad, due, 1e-3, &member.member);
+            // A run that ends a step before has not passed the level.
+            for level in &member.limits[..2] {
+                let at = level.beyond_s.expect("passed");
+                let rotation = |end: f64| {
+                    let summary = shaken_until(&file, None, end);
+                    let found = levels(&summary).list.iter();
+                    let own = { found }.find(|own| own.member == member.member);
+                    own.expect("listed").rotation_rad
+                };
+                assert!(rotation(at - 1e-3) < level.limit_rad);
+                assert!(rotation(at) >= level.limit_rad);
+            }
+        }
+    }
+}
+
+/// The plane frame of twice the space frame, and frames at lines of a plan.
+#[test]
+fn rotations_in_space_and_at_lines_are_those_of_plane_frames() {
+    let summary = |file: String| shaken(&format!("{file}{LIMITS}"), None);
+    let due = summary(plane());
+    let due = levels(&due);
+    // Members that yield: the others only differ by rounding.
+    assert!(due.members == 4 && due.beyond_io >= 2, "{due:?}");
+    let space = summary(in_space("x", ""));
+    let names =
+        |line: &str, storey: &str| ["1", "2"].map(|y| format!("A.column.{line}.{y}.{storey}"));
+    for member in &due.list {
+        let parts: Vec<&str> = member.member.split('.').collect();
+        for name in names(parts[2], parts[3]) {
+            let found = levels(&space).list.iter().find(|own| own.member == name);
+            let found = found.unwrap_or_else(|| panic!("no {name}"));
+            close(found.rotation_rad, member.rotation_rad, 1e-2, 1e-6, &name);
+            assert_eq!(found.at, member.at);
+            assert_eq!(found.beyond, member.beyond);
+        }
+    }
+    assert_eq!(levels(&space).members, 8);
+    // Frames at lines carry no load without inertia.
+    let plane = plane().replace("floor_load = \"300 kN\"\n", "");
+    let (_, members) = plane.split_once("column_segments").expect("members");
+    let lines = format!(
+        "{}mass = \"80 t\"\nplan = [5, 6]\nstiffness = {{ x = 1, y = \"60 MN/m\" }}\n[[building.frame]]\nname = \"F\"\nat = [[0, 0], [0, 6]]\nspans = [5]\ndensity = 0\nelastic_modulus = \"30 GPa\"\ncolumn_segments{members}",
+        head("", "frame").replace("density = 0\nelastic_modulus = \"30 GPa\"\n", ""),
+    );
+    let (due, found) = (summary(plane), summary(lines));
+    let due = levels(&due);
+    assert!(due.beyond_io >= 2, "{due:?}");
+    assert_eq!(levels(&found).members, 8);
+    for member in &due.list {
+        let own = member.member.replace("A.", "");
+        for place in ["F.1", "F.2"] {
+            let name = format!("A.{place}.{own}");
+            let mut list = levels(&found).list.iter();
+            let found = list.find(|own| own.member == name);
+            let found = found.unwrap_or_else(|| panic!("no {name}"));
+            close(found.rotation_rad, member.rotation_rad, 1e-2, 1e-5, &name);
+        }
+    }
+}
+
+#[test]
+fn limits_of_ends_on_surfaces_that_cannot_be_say_why() {
+    let chord = LIMITS.replace("limits =", "measure = \"chord\"\nlimits =");
+    let model = sound(&format!("{}{chord}", plane())).model;
+    let faults = jostle::System::assemble(&model).expect_err("chord rotations");
+    assert!(
+        faults[0].problem.contains("measure = \"plastic\"")
+            && faults[0].path.contains("rotation_limit"),
+        "{faults:?}"
+    );
 }

@@ -42,10 +42,7 @@ impl SteelMember {
     /// Capacity of a member between joints at a distance \[m\]; `bends_across`: of a column of a space frame.
     #[must_use]
     pub fn capacity(&self, member: Member, length: f64, bends_across: bool) -> RuleCapacity {
-        let axes = match self.axis {
-            Axis::Strong => [Axis::Strong, Axis::Weak],
-            Axis::Weak => [Axis::Weak, Axis::Strong],
-        };
+        let axes = self.axes();
         let axial = match member {
             Member::Column => Some([self.tension(), self.compression(length)]),
             Member::Beam => None,
@@ -75,6 +72,24 @@ impl SteelMember {
                 shear: Some(shear(axes[1])),
                 bending: MomentSurface::new(around, stretch),
             }),
+        }
+    }
+
+    /// Moment of a plastic hinge about an axis under an axial force \[N·m, N\]: 1.18 Z F_y (1 − P/(A F_y)), at most Z F_y (FEMA 356,
+    /// (5-4)), or less where a flange or wall buckles before (F3, F6, F7, F8). `None` where the axial force alone yields the section.
+    #[must_use]
+    pub fn hinge_moment(&self, axis: Axis, axial: f64) -> Option<f64> {
+        let left = 1.0 - axial.abs() / self.tension();
+        let plastic = self.yield_strength * self.profile.plastic_modulus(axis);
+        (left > 0.0).then(|| (1.18 * left * plastic).min(self.moment(axis)))
+    }
+
+    /// Both axes of the profile, that of bending in the first plane first.
+    #[must_use]
+    pub fn axes(&self) -> [Axis; 2] {
+        match self.axis {
+            Axis::Strong => [Axis::Strong, Axis::Weak],
+            Axis::Weak => [Axis::Weak, Axis::Strong],
         }
     }
 
@@ -310,6 +325,38 @@ mod tests {
         // Shares of both moments add up at the same axial force.
         let across = capacity.bending_ratio(compression, [0.0, moments[1]]);
         assert!((ratio / (along + across) - 1.0).abs() < 5e-3);
+    }
+
+    /// Z of the tables: HEB 300 1868.7 cm³ and 870.1 cm³ (ArcelorMittal), W24X94 254 in³ (AISC). Half of the squash load leaves 0.59 of
+    /// Z F_y, and a flange that is not compact less: W6X15, λ = 11.5 between 0.38 and 1.0 √(E/F_y) = 9.15 and 24.1.
+    #[test]
+    fn hinges_form_at_the_plastic_moment() {
+        let heb = SteelMember {
+            profile: Profile::named("HEB300").expect("known"),
+            axis: Axis::Weak,
+            yield_strength: 355e6,
+            modulus: crate::STEEL_MODULUS,
+        };
+        assert_eq!(heb.axes(), [Axis::Weak, Axis::Strong]);
+        let moment = |axis, axial| heb.hinge_moment(axis, axial).expect("more than nothing");
+        for (axis, modulus) in [(Axis::Strong, 1868.7e-6), (Axis::Weak, 870.1e-6)] {
+            let due = 355e6 * modulus;
+            assert!((moment(axis, 0.0) / due - 1.0).abs() < 1e-3);
+            // 149.08 cm²: 5292 kN.
+            let half = moment(axis, 0.5 * 5292.3e3);
+            assert!((half / (0.59 * due) - 1.0).abs() < 2e-3, "{half}");
+            assert_eq!(moment(axis, 700e3), moment(axis, -700e3));
+            // Up to 1 − 1/1.18 of the squash load nothing is lost.
+            assert_eq!(moment(axis, 800e3), moment(axis, 0.0));
+        }
+        assert_eq!(heb.hinge_moment(Axis::Strong, 5.3e6), None);
+        let beam = american("W24X94", 50.0).hinge_moment(Axis::Strong, 0.0);
+        let found = beam.expect("more than nothing") / (254.0 * 0.0254_f64.powi(3) * 50.0 * KSI);
+        assert!((found - 1.0).abs() < 1e-2, "{found}");
+        // Z 10.8 in³, S 9.72 in³ (AISC): 540 − (540 − 0.7 · 486) (11.5 − 9.152)/(24.083 − 9.152) = 508.6 kip in.
+        let slender = american("W6X15", 50.0).hinge_moment(Axis::Strong, 0.0);
+        let found = 12.0 * slender.expect("more than nothing") / (KIP * FOOT);
+        assert!((found / 508.6 - 1.0).abs() < 1e-2, "{found}");
     }
 
     #[test]

@@ -121,6 +121,8 @@ pub enum Kind {
     Passed(FibreLimit),
     /// Whether a hinge has turned further than a level of performance allows, 1, and when \[–\].
     Beyond(RotationLevel),
+    /// Plastic rotation of a hinge that yields on a surface \[rad\].
+    Turned,
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
 }
@@ -296,6 +298,7 @@ impl Column {
             (Kind::Work, _) => ("work", Unit::J, "energy absorbed up to this instant"),
             (Kind::Lifted, _) => ("lifted", Unit::S, "time without force up to this instant"),
             (Kind::Beyond(_), _) => ("beyond", Unit::NONE, "whether a hinge has turned beyond a limit"),
+            (Kind::Turned, _) => ("plastic_rotation", Unit::RAD, "plastic rotation of a hinge that yields on a surface"),
             (Kind::Passed(_), _) => ("passed", Unit::NONE, "whether fibres have passed a strain"),
             (Kind::Energy(EnergyTerm::Input), _) => ("input", Unit::J, "work of the ground motion up to this instant"),
             (Kind::Energy(EnergyTerm::Ground), _) => ("ground", Unit::J, "work of the different ground motions through contacts and links, up to this instant"),

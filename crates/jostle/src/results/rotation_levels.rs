@@ -16,8 +16,11 @@ pub(super) fn rotation_levels(building: usize, run: &Run) -> Option<RotationLeve
     for end in &building.limited_ends {
         let global = building.spring_offset + end.spring;
         let law = &building.equations.springs[end.spring].hysteresis;
-        let rotation_rad = end.rotation(law, &run.outcome.state.springs[global]);
         let peaks = run.outcome.peaks.owned_by(Owner::Spring(global));
+        let rotation_rad = match end.on_surface {
+            Some(_) => peaks.of(Kind::Turned).size(),
+            None => end.rotation(law, &run.outcome.state.springs[global]),
+        };
         let limits = end.limits.iter().map(|(level, limit)| {
             let passed = peaks.of(Kind::Beyond(*level)).greatest;
             ReachedLevel {

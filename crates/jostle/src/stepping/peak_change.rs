@@ -67,6 +67,7 @@ impl Greatest {
             | Kind::Lifted
             | Kind::Passed(_)
             | Kind::Beyond(_)
+            | Kind::Turned
             | Kind::Energy(_) => None,
         }
     }

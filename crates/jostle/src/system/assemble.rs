@@ -91,10 +91,11 @@ impl System {
             }
             assembled.weaken_with_ductility(building);
             assembled.limit_rotations(building);
-            if assembled.limited_ends.is_empty() && !building.rotation_limits.is_empty() {
+            let ends = &assembled.limited_ends;
+            if let Some(problem) = LimitedEnd::fault(building, &assembled.structure, ends) {
                 faults.push(ModelFault {
                     path: format!("building[{index}].rotation_limit"),
-                    problem: LimitedEnd::none_named(&assembled.structure).into(),
+                    problem: problem.into(),
                 });
                 continue;
             }

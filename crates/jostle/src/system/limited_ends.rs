@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory, Side};
 use crate::model::{Building, LimitedMembers, RotationLevel, RotationMeasure, SpacePlace};
-use crate::structure::{AssembledBuilding, MemberPlace, SpringPlace, end_stiffnesses};
+use crate::structure::{
+    AssembledBuilding, FibreSection, MemberPlace, SpringPlace, end_stiffnesses,
+};
 
 /// A hinge of a member with limits of its rotation.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,52 @@ pub struct LimitedEnd {
     pub limits: BTreeMap<RotationLevel, f64>,
     /// Stiffness of the member behind it \[N·m/rad\].
     behind: Option<f64>,
+    /// Its plastic rotation, where it yields on a surface: the spring is then a row of this, another one for each plane of bending.
+    pub(crate) on_surface: Option<PlasticRotation>,
+}
+
+/// Plastic rotation of an end that yields on a surface: what its points moved without the elastic part of their forces, over their
+/// distances from the axis. While the end flows one way it is the rotation beyond that at which it yielded.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PlasticRotation {
+    /// Springs of the points, and the shares of their displacements \[rad/m\] and forces \[rad/N\].
+    points: Vec<(usize, [f64; 2])>,
+}
+
+impl PlasticRotation {
+    /// In a plane of bending, 0 or 1. `first`: the first spring of the section.
+    fn of(section: &FibreSection, first: usize, plane: usize) -> Self {
+        let points = section.fibres.iter().enumerate();
+        let points = points.filter(|(_, point)| point.at[plane] != 0.0);
+        let squares: f64 = section.fibres.iter().map(|row| row.at[plane].powi(2)).sum();
+        let points = points.map(|(row, point)| {
+            let curve = point.spring.backbone();
+            let (stiffness, kept) = (curve.initial(), curve.side(Side::Positive).post_yield);
+            let share = point.at[plane] / squares / (stiffness - kept);
+            (first + row, [share * stiffness, share])
+        });
+        Self {
+            points: points.collect(),
+        }
+    }
+
+    /// The same of springs that are counted on from others.
+    pub(crate) fn moved_up(&self, offset: usize) -> Self {
+        let points = self.points.iter();
+        let points = points.map(|(spring, shares)| (offset + spring, *shares));
+        Self {
+            points: points.collect(),
+        }
+    }
+
+    /// \[rad\]
+    pub(crate) fn value(&self, springs: &[HysteresisMemory]) -> f64 {
+        let points = self.points.iter().map(|(spring, [moved, elastic])| {
+            let memory = &springs[*spring];
+            moved * memory.deformation() - elastic * memory.force()
+        });
+        points.sum()
+    }
 }
 
 /// Kind of the member of a hinge, its line or bay and its storey or floor, from 1, its name and its end; `None` for other springs.
@@ -68,6 +116,29 @@ fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
             let name = format!("{}.beam.{floor}.{bay}", of_frame(frame));
             (beams, [bay, floor], name, end.of_beam())
         }
+        // One row for each plane of bending.
+        SpringPlace::Surface {
+            frame,
+            member,
+            end,
+            point,
+            row,
+        } => {
+            let (at, planes) = match member {
+                MemberPlace::Column { line, storey } => ([line, storey], 1),
+                MemberPlace::Beam { .. } => return None,
+                MemberPlace::InSpace(place) => ([0, place.storey() + 1], 2),
+            };
+            if row > planes {
+                return None;
+            }
+            let name = match frame {
+                Some(frame) => format!("{}.{member}", of_frame(frame)),
+                None => member.to_string(),
+            };
+            let end = point.map_or(end.of_column(), |_| "struck");
+            (columns, at, name, end)
+        }
         SpringPlace::InSpace { place, end, .. } => {
             let kind = match place {
                 SpacePlace::Column { .. } => columns,
@@ -81,8 +152,27 @@ fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
 }
 
 impl LimitedEnd {
+    /// What is wrong with the limits of a building, and what to do.
+    pub(super) fn fault(
+        model: &Building,
+        building: &AssembledBuilding,
+        ends: &[Self],
+    ) -> Option<&'static str> {
+        let is_chord = |end: &Self| end.measure == RotationMeasure::Chord;
+        if ends
+            .iter()
+            .any(|end| is_chord(end) && end.on_surface.is_some())
+        {
+            return Some(
+                "limits chord rotations of columns that yield on a surface, whose plastic rotations alone are followed; write measure = \"plastic\"",
+            );
+        }
+        let none = ends.is_empty() && !model.rotation_limits.is_empty();
+        none.then(|| Self::none_named(building))
+    }
+
     /// Why limits of a building name nothing, and what to do.
-    pub(super) fn none_named(building: &AssembledBuilding) -> &'static str {
+    fn none_named(building: &AssembledBuilding) -> &'static str {
         let discretization = &building.discretization;
         let places = &discretization.spring_places;
         let of_members = |place: &SpringPlace| place_of(place, &discretization.frames).is_some();
@@ -111,7 +201,19 @@ impl LimitedEnd {
             let (kind, [line, storey], member, at) = place_of(place, &discretization.frames)?;
             let mut limits = model.rotation_limits.iter().rev();
             let limit = limits.find(|limit| limit.holds_for(kind, line, storey))?;
+            let on_surface = match *place {
+                SpringPlace::Surface { row, .. } => {
+                    let mut sections = discretization.sections.iter();
+                    let (section, rows) = sections.find_map(|section| {
+                        let rows = discretization.springs_of_section(section);
+                        rows.contains(&spring).then_some((section, rows))
+                    })?;
+                    Some(PlasticRotation::of(section, rows.start, row - 1))
+                }
+                _ => None,
+            };
             Some(Self {
+                on_surface,
                 spring,
                 member,
                 at,

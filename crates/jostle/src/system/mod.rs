@@ -26,6 +26,7 @@ pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Trac
 pub use damping::DampedMode;
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
 pub use limited_ends::LimitedEnd;
+pub(crate) use limited_ends::PlasticRotation;
 pub use plan_mat::MatInPlan;
 pub use plan_soil::FoundationInPlan;
 pub use plan_storey::PlanStorey;

@@ -6,7 +6,7 @@ use crate::linear::Row;
 use crate::model::PlanFoundationSprings;
 use crate::stepping::floor_peaks::floor_of;
 use crate::structure::Discretization;
-use crate::system::{BuildingSystem, System, Track};
+use crate::system::{BuildingSystem, PlasticRotation, System, Track};
 
 /// A number over displacements of the system, whose peak is reported under a column. Watches of the same column follow each other and
 /// share its peak.
@@ -37,6 +37,8 @@ pub(crate) enum Statistic {
     Lifted(usize),
     /// 1 from the first end of a step at which any of some springs is deformed so far.
     Passed(DeformationLimit),
+    /// Greatest and least plastic rotation of an end on a surface at ends of steps; with a limit 1 from the first one at which it is so far.
+    Turned(PlasticRotation, Option<f64>),
 }
 
 /// A deformation of springs of a system, ≥ 0 to a side \[rad or m\].
@@ -244,8 +246,23 @@ fn of_limited_ends(building: &BuildingSystem, all: &mut Vec<Watch>) {
     for limited_end in &building.limited_ends {
         let law = &building.equations.springs[limited_end.spring].hysteresis;
         let spring = building.spring_offset + limited_end.spring;
+        let of = |kind| Column::along(Owner::Spring(spring), kind);
+        if let Some(rotation) = &limited_end.on_surface {
+            let turned = |limit| {
+                let rotation = rotation.moved_up(building.spring_offset);
+                Statistic::Turned(rotation, limit)
+            };
+            all.push(Watch::new(of(Kind::Turned), turned(None)));
+            let levels = limited_end.limits.iter();
+            all.extend(
+                levels.map(|(level, limit)| {
+                    Watch::new(of(Kind::Beyond(*level)), turned(Some(*limit)))
+                }),
+            );
+            continue;
+        }
         for (level, limit) in &limited_end.limits {
-            let column = Column::along(Owner::Spring(spring), Kind::Beyond(*level));
+            let column = of(Kind::Beyond(*level));
             all.extend(Side::BOTH.map(|side| {
                 let limit = DeformationLimit {
                     springs: vec![spring],

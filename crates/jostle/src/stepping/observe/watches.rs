@@ -6,7 +6,7 @@ use crate::history::{Extreme, Peak};
 use crate::linear::Row;
 use crate::state::State;
 use crate::stepping::extremes::{greatest_in_step, take_extremes};
-use crate::system::{RunGrounds, System};
+use crate::system::{PlasticRotation, RunGrounds, System};
 
 /// Value and rate.
 type Motion = (f64, f64);
@@ -27,6 +27,8 @@ pub(super) struct Watches {
     /// Springs.
     lifted: Vec<Followed<usize>>,
     passed: Vec<Followed<DeformationLimit>>,
+    /// Ends on surfaces, with a limit or without.
+    turned: Vec<Followed<(PlasticRotation, Option<f64>)>>,
 }
 
 /// A number with the place of its peak.
@@ -56,6 +58,9 @@ impl Watches {
                 }
                 Statistic::Lifted(spring) => follow(&mut all.lifted, spring, place),
                 Statistic::Passed(limit) => follow(&mut all.passed, limit, place),
+                Statistic::Turned(rotation, limit) => {
+                    follow(&mut all.turned, (rotation, limit), place);
+                }
             }
         }
         all
@@ -150,6 +155,20 @@ impl Watches {
         for followed in &self.lifted {
             if state.springs[followed.number].force() == 0.0 {
                 peaks[followed.place].greatest.value += step;
+            }
+        }
+        for followed in &self.turned {
+            let (rotation, limit) = &followed.number;
+            let (value, peak) = (rotation.value(&state.springs), &mut peaks[followed.place]);
+            match limit {
+                None => peak.widen(value),
+                Some(limit) if peak.greatest.value == 0.0 && value.abs() >= *limit => {
+                    peak.greatest = Extreme {
+                        value: 1.0,
+                        at: state.time,
+                    };
+                }
+                Some(_) => {}
             }
         }
         for followed in &self.passed {
