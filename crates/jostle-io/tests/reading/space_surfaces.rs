@@ -310,6 +310,19 @@ fn a_file_says_how_columns_yield() {
     assert_eq!(own.fibres.len(), 4);
 }
 
+/// The diagrams of both planes are summed over layers of their own, whose last digits differ.
+#[test]
+fn rectangles_of_all_sizes_have_a_surface() {
+    for size in ["[0.6, 0.5]", "[0.5, 0.6]", "[0.4, 0.35]", "[0.7, 0.4]"] {
+        let text = in_space("x", "").replace("size = [0.5, 0.5]", &format!("size = {size}"));
+        let frame = frame(&text);
+        assert!(
+            frame.fibres.values().all(ColumnFibres::is_surface),
+            "{size}"
+        );
+    }
+}
+
 #[test]
 fn faults_of_surfaces_in_space_are_named() {
     let stated = cantilever(2e5, 1.5, "");

@@ -1,6 +1,8 @@
 //! Distribution of a horizontal load over the height.
 
+use crate::linear::Row;
 use crate::model::LEVEL_TOLERANCE;
+use crate::structure::Node;
 use crate::structure::element::X;
 use crate::system::BuildingSystem;
 
@@ -45,17 +47,13 @@ impl LoadPattern {
         };
         let mut forces = vec![0.0; equations.len()];
         for (node, mass) in floor_masses(building).into_iter().enumerate() {
-            let height = building.discretization.stick_model.nodes[node].y;
-            let loaded = mass > 0.0 && height > LEVEL_TOLERANCE;
-            let Some(dof) = equations.dof((node, X)).filter(|_| loaded) else {
-                continue;
+            let moved = moved_along(building, node);
+            let factor = match (self, shape) {
+                (Self::FirstMode, Some(mode)) => moved.value(&mode.shape),
+                (Self::Triangular, _) => building.discretization.stick_model.nodes[node].y,
+                _ => 1.0,
             };
-            forces[dof] += mass
-                * match (self, shape) {
-                    (Self::FirstMode, Some(mode)) => mode.shape[dof],
-                    (Self::Triangular, _) => height,
-                    _ => 1.0,
-                };
+            moved.push(mass * factor, &mut forces);
         }
         let sum: f64 = forces.iter().sum();
         if !(sum.is_finite() && sum != 0.0) {
@@ -71,14 +69,24 @@ impl LoadPattern {
 /// Mass that a uniform load acts on: all above the base \[kg\].
 pub(super) fn loaded_mass(building: &BuildingSystem) -> f64 {
     let masses = floor_masses(building).into_iter().enumerate();
-    let loaded = masses.filter(|(node, mass)| {
-        let height = building.discretization.stick_model.nodes[*node].y;
-        *mass > 0.0 && height > LEVEL_TOLERANCE && building.equations.dof((*node, X)).is_some()
-    });
+    let loaded = masses.filter(|(node, _)| !moved_along(building, *node).is_empty());
     loaded.map(|(_, mass)| mass).sum()
 }
 
-/// Mass of every node, those between floors moved to the nodes above and below on the same line \[kg\].
+/// How a node above the base moves along the row, or along its frame, over the displacements of the building: joints of frames at lines
+/// with their floor. Empty below.
+fn moved_along(building: &BuildingSystem, node: usize) -> Row {
+    let stick_model = &building.discretization.stick_model;
+    match stick_model.nodes[node].y > LEVEL_TOLERANCE {
+        true => {
+            let carried = stick_model.carried((node, X));
+            building.equations.row(&carried)
+        }
+        false => Row::default(),
+    }
+}
+
+/// Mass of every node that is driven along its direction, those between floors moved to the nodes above and below on the same line \[kg\].
 fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
     let stick_model = &building.discretization.stick_model;
     let nodes = &stick_model.nodes;
@@ -87,7 +95,8 @@ fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
         .chain(building.floors.iter().map(|floor| floor.height))
         .collect();
     let close = |a: f64, b: f64| (a - b).abs() <= LEVEL_TOLERANCE;
-    let mut masses: Vec<f64> = nodes.iter().map(|node| node.mass).collect();
+    let along = |node: &Node| node.inertia[X] * node.influence[X].along;
+    let mut masses: Vec<f64> = nodes.iter().map(along).collect();
     for (index, node) in nodes.iter().enumerate() {
         if levels.iter().any(|level| close(*level, node.y)) {
             continue;

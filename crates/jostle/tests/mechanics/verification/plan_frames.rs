@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use jostle::linear::StepMatrix;
+use jostle::pushover::LoadPattern;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
     Analysis, Base, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, Frame, Gap,
@@ -314,6 +315,12 @@ fn are_twice_a_plane_frame(one: &Frame, dampings: &[Damping]) {
         for (circular_frequency, plane) in along.iter().zip(&b.modes) {
             let expected = plane.circular_frequency;
             close(*circular_frequency, expected, expected, 1e-9, "frequency");
+        }
+        // Masses of columns between floors load a pushover at the floors beside them.
+        let loads =
+            [a, b].map(|building| LoadPattern::Triangular.forces(building).expect("masses"));
+        for (own, other) in a.floors.iter().zip(&b.floors) {
+            close(loads[0][own.dof], loads[1][other.dof], 1.0, 1e-9, "load");
         }
         // Reduced shapes of the plane keep the tolerance of 1e-6; all modes are exact.
         let tolerance = if *damping == ALL_MODES { 1e-9 } else { 2e-6 };
