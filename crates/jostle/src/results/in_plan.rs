@@ -84,7 +84,7 @@ pub struct BuildingInPlan {
 impl BuildingInPlan {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "peak base shear across", |b| b.base_shear_across_peak_n).in_study().compared(),
+        Quantity::<Self>::real("base_shear_across_peak_n", Unit::N, "peak base shear across: without a mat that of the lowest storey, also on springs under the base", |b| b.base_shear_across_peak_n).in_study().compared(),
         Quantity::<Self>::real("base_torque_peak_n_m", Unit::NM, "peak base torque about the centre of mass of the lowest floor", |b| b.base_torque_peak_n_m).in_study().compared(),
         Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner of any floor", |b| b.corner_displacement_peak_m).in_study().compared(),
         Quantity::<Self>::real("rotation_peak_rad", Unit::RAD, "peak rotation of any floor", |b| b.rotation_peak_rad).in_study().compared(),

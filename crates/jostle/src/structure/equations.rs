@@ -347,11 +347,10 @@ impl Equations {
     }
 }
 
-/// Whether a displacement is that of what a building with a plan stands on: its base shear is what the lowest storey bears, in every
-/// direction. On bearings it is the force of these.
+/// Whether a displacement is that of the foundation of a building with a plan, on soil.
 fn stands_below(stick_model: &StickModel, place: Place) -> bool {
-    let moves = stick_model.moves_across() && stick_model.plan_mat.is_none();
-    moves && stick_model.nodes[place.0].y <= LEVEL_TOLERANCE
+    let on_soil = stick_model.plan_base.is_some_and(|base| base.on_soil);
+    on_soil && stick_model.nodes[place.0].y <= LEVEL_TOLERANCE
 }
 
 /// Springs that yield: those by themselves, then bearings in plan, then sections on a surface.

@@ -249,6 +249,7 @@ impl StickModel {
             centre: footing.tier.centre,
             middle: area.centroid,
             rocking: None,
+            on_soil: base.foundation.is_some(),
             rises: base.lifts(),
             uncoupled: None,
         });

@@ -351,6 +351,8 @@ pub struct PlanBase {
     pub middle: [f64; 2],
     /// Node of its rocking, if it rocks: displacements of floors per height, along and across \[–\], and its rise \[m\].
     pub rocking: Option<usize>,
+    /// Whether it stands on soil: the base shear is then what it takes from the building above.
+    pub on_soil: bool,
     /// Whether it rises and sinks, because it can lift off.
     pub rises: bool,
     /// The node that it follows in its place, if masses that rise couple these motions.
