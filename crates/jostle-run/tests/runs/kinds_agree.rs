@@ -260,3 +260,49 @@ fn frames_of_templates_are_alike_in_one_plane_and_at_lines() {
     }
     assert!(compared > 6, "{compared} frames");
 }
+
+const ON_BEARINGS: &str = r#"
+[motion]
+record = "el-centro-1940-ns"
+pga = "0.4 g"
+duration = "4 s"
+[[building]]
+name = "A"
+storeys = 1
+storey_height = "3 m"
+floor_mass = "60 t"
+spans = ["5 m"]
+elastic_modulus = "30 GPa"
+column = { width = "400 mm", depth = "500 mm" }
+beam = { width = "300 mm", depth = "500 mm" }
+beam_mass = "1000 kg/m"
+isolation = { kind = "lead-rubber", stiffness = "40 MN/m", post_yield = 0.1, mat_mass = "60 t", yield = "50 kN" }
+"#;
+
+/// What yields in the building does not take the place of the bearings, which bear the base shear.
+#[test]
+fn bearings_bear_the_base_shear_whatever_yields_above() {
+    let panel = "modulus = \"3 GPa\", thickness = \"200 mm\", width = \"0.9 m\"";
+    let parts = [
+        format!("infill = [{{ {panel} }}]\n"),
+        format!("infill = [{{ {panel}, out_of_plane = {{ strength = \"0.05 kPa\", density = \"1400 kg/m3\", remove = true }} }}]\n"),
+        "brace = [{ direction = \"up\", EA = \"200 MN\", hinge = { rule = \"bilinear\", yield = \"50 kN\", post_yield = 0.02 } }]\n".to_owned(),
+        "wall = [{ line = 1, length = \"1.5 m\", thickness = \"250 mm\", shear_hinge = { rule = \"bilinear\", yield = \"100 kN\", post_yield = 0.02 } }]\n".to_owned(),
+    ];
+    for part in parts {
+        let mut model = files::sound(&format!("{ON_BEARINGS}{part}")).model;
+        model.analysis.step = Some(2e-3);
+        model.analysis.solver = Some(Solver::Riccati);
+        let motion = fading("two", 8.0, [4.0, 1.6], 200);
+        let (_, _, summary) = runs::run_and_summary(&model, &motion);
+        let building = &summary.buildings[0];
+        let isolation = building.isolation.as_ref().expect("bearings");
+        let base_shear = building.response.base_shear_peak_n;
+        close(isolation.force_peak_n, base_shear, base_shear, 1e-6, &part);
+        assert!(
+            isolation.hysteretic_j > 100.0,
+            "{part}: {} J",
+            isolation.hysteretic_j
+        );
+    }
+}

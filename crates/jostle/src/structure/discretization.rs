@@ -256,6 +256,9 @@ impl Discretization {
         let weight = isolation.weight_of(mass);
         let ground = sticks.add_node(0.0, 0.0);
         sticks.nodes[ground].support = Support::Fixed;
+        // What yields between any points comes after springs.
+        let before = self.spring_places.len() - sticks.yielding.len();
+        let mut places = Vec::new();
         let (elastic, yielding) = isolation.isolator.springs(weight);
         let dashpot = isolation.dashpot(mass);
         let spring = |hysteresis: Option<Hysteresis>| Spring {
@@ -270,7 +273,7 @@ impl Discretization {
         });
         if let Some(yielding) = yielding {
             sticks.springs.push(spring(Some(yielding)));
-            self.spring_places.push(SpringPlace::Bearings);
+            places.push(SpringPlace::Bearings);
         }
         for (side, stop) in [Side::Negative, Side::Positive]
             .into_iter()
@@ -278,9 +281,10 @@ impl Discretization {
         {
             if let Some(stop) = stop.and_then(|stop| stop.spring(side)) {
                 sticks.springs.push(spring(Some(stop)));
-                self.spring_places.push(SpringPlace::Stop { side });
+                places.push(SpringPlace::Stop { side });
             }
         }
+        self.spring_places.splice(before..before, places);
         self.left_face.insert(0, mat);
         self.right_face.insert(0, feet[feet.len() - 1]);
         self.mat = Some(Mat {

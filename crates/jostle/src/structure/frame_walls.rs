@@ -34,6 +34,9 @@ impl StickModel {
     pub(super) fn add_beside(&mut self, node: usize) -> usize {
         let model_node = self.nodes[node];
         let new = self.add_node(model_node.x, model_node.y);
+        if self.slides.contains(&node) {
+            self.slides.insert(new);
+        }
         if let Some(turn) = self.turns.get(&node).copied() {
             self.turns.insert(new, turn);
         }
