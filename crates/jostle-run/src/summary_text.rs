@@ -10,12 +10,12 @@ use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::summary::{
-    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, ShearFailure,
-    Summary,
+    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, ImpactPlace, LinkSummary,
+    ShearFailure, Summary,
 };
 use jostle::separation::Requirements;
 use jostle_io::shown::{
-    ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
+    ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, HEIGHT, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
 use jostle_io::{Input, in_shown_units};
@@ -520,13 +520,7 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
         let count = format!("{} of {}", failures.failed, failures.total);
         match failures.list.first() {
             Some(first) => {
-                let during = first.impact.as_ref().map_or_else(String::new, |impact| {
-                    let [left, right] = &impact.between;
-                    format!(
-                        ", during the impact of {left} and {right} from {:.3} s",
-                        impact.start_s
-                    )
-                });
+                let during = first.impact.as_ref().map_or_else(String::new, during);
                 let along = first
                     .along
                     .map_or_else(String::new, |axis| format!(" along {axis}"));
@@ -564,6 +558,22 @@ fn write_later_failures(text: &mut String, list: &[ShearFailure]) -> std::fmt::R
         return Ok(());
     };
     let shown = later.iter().take(LISTED);
+/// The impact at an instant in words: whether it strikes the member that is named before, or where else it is.
+fn during(impact: &ImpactPlace) -> String {
+    let [left, right] = &impact.between;
+    let where_it_is = match impact.on_member {
+        Some(true) => "on it, ",
+        Some(false) => "elsewhere, ",
+        None => "",
+    };
+    format!(
+        ", during the impact of {left} and {right} {where_it_is}at {} {}, from {:.3} s",
+        HEIGHT.stated(impact.height_m),
+        HEIGHT.name(),
+        impact.start_s
+    )
+}
+
     let shown: Vec<String> = shown
         .map(|failure| format!("{} at {:.3} s", failure.column, failure.failed_s))
         .collect();
@@ -603,16 +613,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
         return Ok(());
     };
     let place = |exceedance: &ExceededSummary| {
-        let during = exceedance
-            .impact
-            .as_ref()
-            .map_or_else(String::new, |impact| {
-                let [left, right] = &impact.between;
-                format!(
-                    ", during the impact of {left} and {right} from {:.3} s",
-                    impact.start_s
-                )
-            });
+        let during = exceedance.impact.as_ref().map_or_else(String::new, during);
         format!(
             "{} in {} at its {}, t = {:.3} s{during}",
             exceedance.member, exceedance.kind, exceedance.at, exceedance.at_s

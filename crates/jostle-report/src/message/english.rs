@@ -412,7 +412,9 @@ messages! {
     rotations_of_yielding_ends_chord = "Rotations of yielding ends: chord rotation by EN 1998-3 (DL damage limitation, SD significant damage, NC near collapse), plastic rotation by ASCE 41 (IO immediate occupancy, LS life safety, CP collapse prevention), and crushing of the section; in this order, if they apply.";
     greatest_forces_of_every_member = "Peak forces of every member, sorted by the greatest ratio if capacities are known, otherwise with struck columns first, then by shear. Axial forces are positive in tension; shear and moment are the greatest absolute values at both ends and on both sides of a struck point. Shears and moments do not include damping forces.";
     greatest_of_both_planes_of_bending = "In a space frame they are the greatest of both planes of bending.";
-    during_the_impact(left, right, start) = ", during the impact of {left} and {right} that starts at {start}";
+    during_the_impact(left, right, where_it_is, height, start) = ", during the impact of {left} and {right} {where_it_is}at {height} {m}, from {start}";
+    impact_on_it = "on it, ";
+    impact_elsewhere = "elsewhere, ";
     in_at(member, kind, at, at_2, during) = "{member} in {kind} at its {at}, at {at_2}{during}";
     greatest_ratio_title(ratio, worst) = "Greatest ratio {ratio}: {worst}.";
     of_members_are_beyond(name, exceeded, rated, in_shear, place, worst) = "{name}: {exceeded} of {rated} members exceed their capacity, {in_shear} of them in shear; first {place}. {worst}";
@@ -1267,7 +1269,7 @@ messages! {
     first_shear_failures(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
     in_order_of_time_by_building = "In order of time, building by building.";
     during_the_impact_of = "during the impact of";
-    both_at_height_from(left, right, height, start) = "{left} and {right} at {height} {m}, from {start}";
+    both_at_height_from(left, right, where_it_is, height, start) = "{left} and {right} {where_it_is}at {height} {m}, from {start}";
     columns_that_failed_in_shear = "columns that failed in shear";
     failed_of_all(failed, all) = "{failed} of {all}";
     strength = "strength";
