@@ -7,7 +7,7 @@ use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ExceededSummary, ImpactPlace, JointSummary, MemberSummary,
     RatioPlace, SectionSummary,
 };
-use jostle_section::capacity::ShearRule;
+use jostle_section::capacity::CapacityRule;
 use maud::{Markup, html};
 
 use crate::message;
@@ -31,7 +31,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         .filter_map(|b| b.capacity.as_ref());
     let rule = rated
         .next()
-        .and_then(|capacity| ShearRule::from_name(capacity.rule));
+        .and_then(|capacity| CapacityRule::from_name(capacity.rule));
     let members = page.summary.buildings.iter().flat_map(|b| &b.members);
     let in_space = members
         .flat_map(sections)
