@@ -80,7 +80,8 @@ struct Payload<'a> {
     bearing: Option<BearingData>,
 }
 
-/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends, `m` with thousandths of the storey), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
+/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends, `m` with thousandths of the storey), level, line, end, when it cracked and yielded \[s\], its greatest ductility \[–\], and
+/// whether it is a brace that buckles.
 type HingeData = (
     usize,
     char,
@@ -89,6 +90,7 @@ type HingeData = (
     usize,
     Option<f64>,
     Option<f64>,
+    bool,
     f64,
 );
 
@@ -353,7 +355,17 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
         .map(|place| {
             let (kind, level, line, end) = hinges::coordinates(page, place);
             let line = member_number(page, place).unwrap_or(line);
-            (place.building, kind, level, line, end, None, None, 0.0)
+            (
+                place.building,
+                kind,
+                level,
+                line,
+                end,
+                None,
+                None,
+                0.0,
+                place.buckles(),
+            )
         })
         .collect();
     let short = |t: f64| (t * 1e4).round() / 1e4;
@@ -366,7 +378,7 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
             continue;
         };
         let entry = &mut data[index];
-        entry.5 = spring.cracked_s.map(short);
+        entry.5 = spring.cracked_s.filter(|_| !entry.8).map(short);
         entry.6 = spring.yielded_s.map(short);
         entry.7 = (spring.ductility * 1e3).round() / 1e3;
     }

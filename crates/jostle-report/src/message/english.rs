@@ -382,6 +382,7 @@ messages! {
     greatest_negative = "greatest −";
     the_first_of_in_order(most_rows, all) = "The first {most_rows} of {all} in order of yielding; hinges.parquet contains all of them.";
     in_order_of_yielding = "In order of yielding.";
+    in_order_of_yielding_or_buckling = "In order of yielding or buckling.";
     ordinal = "no.";
     show_all_places(shown) = "Show all {shown}";
 
@@ -1115,6 +1116,8 @@ messages! {
     not_cracked = "not cracked";
     struts_of_the_whole_run = "infill struts, whole run: dashed where cracked, full where the strength was reached";
     yielded_greatest_ductility = "yielded, greatest ductility:";
+    neither_yielded_nor_buckled = "neither yielded nor buckled";
+    yielded_or_buckled = "yielded or buckled";
     over_value(value) = "over {value}";
     loop_numbers(ductility, dissipated) = "ductility {ductility}, {dissipated} {kJ}";
     loop_of(force, deformation, name) = "{force} against {deformation}, {name}";
