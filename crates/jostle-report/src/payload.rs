@@ -1,6 +1,5 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
-use jostle::Frame;
 use jostle::history::{Column, EnergyTerm, History, Kind, Owner};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
@@ -13,7 +12,7 @@ use serde::Serialize;
 use crate::Page;
 use crate::damage::strut_stages;
 use crate::devices::{self, side_column};
-use crate::drawn_members::{DiagonalData, MemberData, WallData, lines_along};
+use crate::drawn_members::{DiagonalData, MemberData, SeenAcross, WallData};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
 use crate::plan_motion::face_indentation;
@@ -90,8 +89,8 @@ type HingeData = (
     usize,
     Option<f64>,
     Option<f64>,
-    bool,
     f64,
+    bool,
 );
 
 /// The loop of one hinge.
@@ -141,7 +140,7 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
-    /// Storeys with a column from 1, by column line, of a frame in one plane that lacks some.
+    /// Storeys with a column from 1, by column line, of a frame that lacks some; in space, storeys whose floor ends there as well.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     standing: Vec<Vec<usize>>,
     /// Height of the base above the datum, if it is not zero \[m\].
@@ -470,14 +469,25 @@ fn outlines<'a>(page: &Page<'a>) -> Vec<Outline<'a>> {
 fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Outline<'a> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
-    let (frame, spans) = match &building.structure {
-        Structure::Frame(frame) => (true, frame.spans.clone()),
-        Structure::Tiers(tiers) => {
-            let lines = lines_along(tiers);
-            let spans = lines.windows(2).map(|pair| pair[1] - pair[0]);
-            (false, spans.collect())
+    let (frame, spans, standing) = match &building.structure {
+        Structure::Frame(frame) => {
+            let standing = match frame.is_regular() {
+                true => Vec::new(),
+                false => frame.storeys_of_lines(),
+            };
+            (true, frame.spans.clone(), standing)
         }
-        Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH]),
+        Structure::Tiers(tiers) => {
+            let seen = SeenAcross::new(tiers);
+            let spans = seen.lines.windows(2).map(|pair| pair[1] - pair[0]);
+            let spans = spans.collect();
+            let standing = match seen.is_regular(tiers.floors.len()) {
+                true => Vec::new(),
+                false => seen.storeys,
+            };
+            (false, spans, standing)
+        }
+        Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH], Vec::new()),
     };
     let plans = match &building.structure {
         Structure::Tiers(tiers) => {
@@ -536,10 +546,7 @@ fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Out
         frame,
         heights: building.floor_heights(),
         spans,
-        standing: plane
-            .filter(|plane| !plane.is_regular())
-            .map(Frame::storeys_of_lines)
-            .unwrap_or_default(),
+        standing,
         elevation: Some(building.base.elevation).filter(|elevation| *elevation != 0.0),
         diagonals: diagonals.collect(),
         walls: plane
