@@ -562,7 +562,7 @@ messages! {
     harder_without_capacity(note, member, force) = "{note}; {member}, up to {force}, has no known capacity";
     capacity_unknown(note) = "{note}; capacity not known";
     columns_failed = "Columns failed in shear";
-    worst_effect = "Largest increase by pounding";
+    worst_effect = "Largest increase due to pounding";
     times_without(ratio) = "× {ratio}";
     drift_of_storey(building, storey, peak) = "drift of {building}, storey {storey}: {peak}";
     shear_of_storey(building, storey, peak) = "shear of {building}, storey {storey}: {peak}";
@@ -953,6 +953,8 @@ messages! {
     the_strongest_of_impacts_impacts(most_rows, all) = "The {most_rows} strongest of {all}  impacts; impacts.parquet contains all of them.";
     show_all_impacts(rows) = "Show all {rows} impacts";
     of_poundings_are_at_several(multiple_pounding_count, pounding_count, most_at_once) = "{multiple_pounding_count} of {pounding_count} poundings involve several floors (up to {most_at_once}).";
+    one_of_poundings_is_at_several(pounding_count, most_at_once) = "1 of {pounding_count} poundings involves several floors (up to {most_at_once}).";
+    only_pounding_is_at_several(most_at_once) = "The only pounding involves {most_at_once} floors.";
     restitution_is_separation_speed_impact = "Restitution is separation speed ÷ impact speed, as computed.";
     two_free_masses_would = "Two free masses would rebound with";
     under_this_contact_law = "under this contact law.";
@@ -1114,10 +1116,10 @@ messages! {
     over_time_of(title) = "{title} over time";
     at_instant(instant) = "at {instant} s";
     not_cracked = "not cracked";
-    struts_of_the_whole_run = "infill struts, whole run: dashed where cracked, full where the strength was reached";
-    yielded_greatest_ductility = "yielded, greatest ductility:";
     neither_yielded_nor_buckled = "neither yielded nor buckled";
     yielded_or_buckled = "yielded or buckled";
+    struts_of_the_whole_run = "infill struts, whole run: dashed where cracked, full where the strength was reached";
+    yielded_greatest_ductility = "yielded, greatest ductility:";
     over_value(value) = "over {value}";
     loop_numbers(ductility, dissipated) = "ductility {ductility}, {dissipated} {kJ}";
     loop_of(force, deformation, name) = "{force} against {deformation}, {name}";
@@ -1235,8 +1237,10 @@ messages! {
     compression_axis(unit) = "compression [{unit}]";
     path_of_the_run = "this run";
     interaction_of_the_section = "capacity";
-    paths_on_surfaces(count) = "Axial compression and moment of column ends; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone.";
-    paths_of_ends(count) = "Axial compression and moment of the ends whose strains are closest to a limit or furthest beyond it; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns can exceed it.";
+    paths_on_surfaces = "Axial compression and moment of column ends.";
+    surface_is_dashed = "The dashed curve is the capacity of the section in that plane of bending alone.";
+    paths_of_ends = "Axial compression and moment of the ends whose strains are closest to a limit or furthest beyond it.";
+    capacity_is_dashed = "The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns can exceed it.";
 
     // panels
     infill_panels = "Infill panels";

@@ -11,6 +11,7 @@ mod judged_members;
 mod long_histories;
 mod loose_tolerance;
 mod member_capacity;
+mod plain_words;
 mod registry;
 mod shear_failure;
 mod space_capacity;
