@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use jostle::hysteresis::Stage;
+use jostle::DiagonalKind;
+use jostle::hysteresis::{Hysteresis, HysteresisRule, Stage};
 use jostle::pushover::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
 use jostle::structure::SpringPlace;
 
@@ -72,7 +73,8 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
     let has_fibres = places.any(|place| matches!(place, SpringPlace::Fibre { .. }));
     let mut laws = one.building.equations.springs.iter();
     let cracks = has_fibres || laws.any(|spring| spring.hysteresis.cracks());
-    if !one.is_elastic() {
+    let yields = one.yielding_places() + one.links() > 0;
+    if yields {
         if cracks {
             row("first crack", curve.first(Stage::Cracked))?;
         }
@@ -96,7 +98,6 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             two.ductility()
         )?;
     }
-    let [cracked, yielded] = curve.counts(springs);
     let ended = match curve.end {
         PushEnd::Target => String::new(),
         other => format!(" {}", styled(LOUD, &format!("Ended early: {other}."))),
@@ -119,17 +120,78 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             counted(links, "link")
         ),
     };
-    let all = one.building.equations.yielding_places() - shear;
-    let all = match has_fibres {
-        true => format!("{all} hinges and fibres"),
-        false => counted(all, "hinge"),
-    };
-    let damage = match cracks {
-        true => format!("{cracked} of {all} crack, {yielded} yield"),
-        false => format!("{yielded} of {all} yield"),
-    };
-    writeln!(text, "  {damage}.{failures}{links}{ended}")?;
+    writeln!(
+        text,
+        "  {}.{failures}{links}{ended}",
+        damage(one, curve, [shear, springs])
+    )?;
     write_events(text, one, curve)
+}
+
+/// How many hinges, braces and struts of panels crack, yield and buckle. Of all springs, `shear` can fail in shear.
+fn damage(one: &PushedBuilding, curve: &Pushover, [shear, springs]: [usize; 2]) -> String {
+    let (equations, discretization) = (&one.building.equations, &one.building.discretization);
+    let stages = curve.stages(springs, curve.points.len());
+    let laws = equations.springs.iter().map(|spring| &spring.hysteresis);
+    let places = discretization.spring_places.iter();
+    let all: Vec<_> = places.zip(laws).zip(&stages).collect();
+    // Those of braces, of struts with a strength, or of everything else.
+    let of_kind = |kind: Option<DiagonalKind>| {
+        let has_strength = |law: &Hysteresis| !matches!(law.rule(), HysteresisRule::Stop { clearance, .. } if clearance == 0.0);
+        all.iter().filter(move |((place, law), _)| {
+            let own = match place {
+                SpringPlace::Diagonal { place, .. } => Some(place.kind),
+                _ => None,
+            };
+            own == kind && has_strength(law)
+        })
+    };
+    let reached = |kind, least: Stage| {
+        let reached = of_kind(kind).filter(|(_, stage)| **stage >= least);
+        reached.count()
+    };
+    let (brace, strut) = (Some(DiagonalKind::Brace), Some(DiagonalKind::Infill));
+    let [braces, struts] = [brace, strut].map(|kind| of_kind(kind).count());
+    let hinges = one.yielding_places() - shear - braces - struts;
+    let mut said = Vec::new();
+    if hinges > 0 {
+        let has_fibres = all
+            .iter()
+            .any(|((place, _), _)| matches!(place, SpringPlace::Fibre { .. }));
+        let name = match has_fibres {
+            true => format!("{hinges} hinges and fibres"),
+            false => counted(hinges, "hinge"),
+        };
+        let cracks = has_fibres || of_kind(None).any(|((_, law), _)| law.cracks());
+        let [cracked, yielded] = [Stage::Cracked, Stage::Yielded].map(|stage| reached(None, stage));
+        said.push(match cracks {
+            true => format!("{cracked} of {name} crack, {yielded} yield"),
+            false => format!("{yielded} of {name} yield"),
+        });
+    }
+    if braces > 0 {
+        let name = counted(braces, "brace");
+        let [yielded, buckled] =
+            [Stage::Yielded, Stage::Buckled].map(|stage| reached(brace, stage));
+        let buckle =
+            of_kind(brace).any(|((_, law), _)| matches!(law.rule(), HysteresisRule::Buckling(_)));
+        said.push(match buckle {
+            true => format!("{buckled} of {name} buckle, {} yield", yielded - buckled),
+            false => format!("{yielded} of {name} yield"),
+        });
+    }
+    if struts > 0 {
+        let name = counted(struts, "infill strut");
+        let [cracked, crushed] =
+            [Stage::Cracked, Stage::Yielded].map(|stage| reached(strut, stage));
+        said.push(format!(
+            "{cracked} of {name} crack, {crushed} reach their strength"
+        ));
+    }
+    match said.is_empty() {
+        true => "Nothing in it cracks or yields: its infill struts have no strength".to_owned(),
+        false => said.join("; "),
+    }
 }
 
 fn write_events(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std::fmt::Result {
@@ -140,7 +202,7 @@ fn write_events(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> st
         .collect();
     let yields = |point: &PushPoint| {
         let mut kinds = point.events.iter().map(|event| event.kind);
-        kinds.any(|kind| matches!(kind, PushEventKind::Yields | PushEventKind::Fails))
+        kinds.any(|kind| kind.is_yield() || kind == PushEventKind::Fails)
     };
     let mut yielding = 0;
     let listed = eventful.iter().enumerate().filter(|(index, point)| {

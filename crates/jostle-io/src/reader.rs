@@ -237,7 +237,10 @@ impl<'s> Reader<'s> {
         for entry in &table.entries {
             if keys_of(sections).all(|key| key.name != entry.key) {
                 let shown = shorten(&entry.key);
-                let remedy = suggest(&entry.key, sections);
+                let remedy = match of_building(&entry.key, sections, &field.path) {
+                    Some(remedy) => remedy,
+                    None => suggest(&entry.key, sections),
+                };
                 let path = join(&field.path, &shown);
                 *self.fault(&entry.key_span, path, format!("unknown key \"{shown}\"")) =
                     Some(remedy);
@@ -580,6 +583,33 @@ impl<'s> Reader<'s> {
         }
         None
     }
+}
+
+/// What to do with a key of a building in one of its tables, such as `[[building.infill]]`: below such a header, keys are those of the
+/// table.
+fn of_building(key: &str, sections: &'static [Section], path: &str) -> Option<String> {
+    const KINDS: [Section; 5] = [
+        Section::Building,
+        Section::Frame,
+        Section::Shear,
+        Section::Given,
+        Section::SpaceFrame,
+    ];
+    if sections.iter().any(|section| KINDS.contains(section)) {
+        return None;
+    }
+    // The table itself, and no value within it.
+    let (building, table) = path.split_once("].")?;
+    let is_table = building.starts_with("building[") && !table.contains('.');
+    let is_known = keys_of(&KINDS).any(|known| known.name == key);
+    let name = table.split('[').next().unwrap_or(table);
+    let header = match table.contains('[') {
+        true => format!("[[building.{name}]]"),
+        false => format!("[building.{name}]"),
+    };
+    (is_table && is_known).then(|| {
+        format!("{key} belongs to the building: write it above the first {header}, or as [building.{key}] if it is a table")
+    })
 }
 
 /// Suggestion for an unknown key.

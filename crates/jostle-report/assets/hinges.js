@@ -5,7 +5,7 @@ let hinges = [];
 
 /** Takes over the places of the run that is loaded. */
 function loadHinges() {
-  hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded, ductility]) => ({
+  hinges = page.hinges.map(([building, kind, level, line, end, cracked, yielded, ductility, buckles]) => ({
     building,
     kind,
     level,
@@ -14,6 +14,7 @@ function loadHinges() {
     cracked: cracked ?? Infinity,
     yielded: yielded ?? Infinity,
     grade: gradeOf(ductility),
+    buckles,
   }));
 }
 
@@ -22,7 +23,16 @@ const grades = [1, 2, 4, 6, 8];
 /** Place of a ductility among them. */
 const gradeOf = (ductility) => Math.max(grades.findLastIndex((low) => ductility >= low), 0);
 
-const stageNames = [say("not_cracked"), say("cracked"), say("yielded")];
+/** Names of the stages; braces that buckle have none between. */
+function stageNames() {
+  const some = hinges.some((hinge) => hinge.buckles);
+  const all = hinges.every((hinge) => hinge.buckles);
+  return [
+    all ? say("neither_yielded_nor_buckled") : say("not_cracked"),
+    all ? null : say("cracked"),
+    some ? say("yielded_or_buckled") : say("yielded"),
+  ];
+}
 
 /** 0 not cracked, 1 cracked, 2 yielded. */
 function stageAt(hinge, t) {
@@ -45,7 +55,8 @@ class HingeLegend {
     if (host && page.buildings.some((building) => building.diagonals?.some((own) => own.stage > 0))) html("span", "key", say("struts_of_the_whole_run"), host);
     if (!host || !hinges.length) return;
     const named = page.buildings.length > 1;
-    this.rows = stageNames.map((name, stage) => {
+    this.rows = stageNames().map((name, stage) => {
+      if (name === null) return [];
       const key = html("span", "key", undefined, host);
       const mark = svg("svg", { class: "mark", viewBox: "0 0 14 14", "aria-hidden": "true" }, key);
       svg("path", { class: `hinge-${stage}`, d: markOutline(stage, 7, 7, 4.2) }, mark);

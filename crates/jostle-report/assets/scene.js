@@ -396,7 +396,7 @@ class Scene {
     this.drawDiagonals(part, building, i, heights, sway, t);
     this.drawWalls(part, building.walls ?? [], lines, heights, sway);
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
-    this.drawHinges(part, building, lines, heights, sway, t);
+    this.drawHinges(part, building, i, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
     const edges = building.standing ? lines.map((_, line) => line) : [0, lines.length - 1];
     const outline = (places) => edges.map((line) => column(lines[line], places, line)).join("") + floor(places);
@@ -449,7 +449,8 @@ class Scene {
   }
 
   /** Marks near the ends of members, off the joint by a little so that all four around it are seen. */
-  drawHinges(part, building, lines, heights, sway, t) {
+  drawHinges(part, building, i, heights, sway, t) {
+    const lines = this.lines(i);
     const size = Math.min(Math.max(this.scale * 0.17, 1.9), 4.2);
     const f = this.exaggeration;
     const outlines = ["", ""];
@@ -495,7 +496,7 @@ class Scene {
         // Below the ground line: rocking first, sliding beneath it.
         mark(hinge, [this.px(lines[line - 1] + f * sway[0]), this.py(heights[0]) + (end ? 4.6 : 2.2) * size]);
       } else {
-        for (const x of [lines[0], lines[lines.length - 1]]) mark(hinge, onColumn(level, x, 0.5));
+        for (const x of this.outer(i, level)) mark(hinge, onColumn(level, x, 0.5));
       }
     }
     outlines.forEach((outline, stage) => part.hinges[stage].setAttribute("d", outline));

@@ -148,13 +148,18 @@ fn diagonals(model: &Building) -> Vec<Diagonal> {
     }
 }
 
-/// Struts of panels with a curve, by the corners that their greatest compression has passed: `None` for elastic ones, 0 to 2.
+/// Struts of panels, by the corners that their greatest compression has passed: `None` for those without a strength, 0 to 2.
 pub(crate) fn strut_stages(model: &Building, summary: &BuildingSummary) -> Vec<Option<u8>> {
     let mut struts = diagonals(model);
     struts.retain(|diagonal| diagonal.place.kind == DiagonalKind::Infill);
     let parts = summary.parts.iter().filter(|part| part.kind == "infill");
     let stage = |(strut, part): (&Diagonal, &PartSummary)| {
-        let curve = *strut.hysteresis?.backbone().side(Side::Negative);
+        let law = strut.hysteresis?;
+        // Those that bear compression alone, without a strength, have no corner.
+        if matches!(law.rule(), HysteresisRule::Stop { .. }) {
+            return None;
+        }
+        let curve = *law.backbone().side(Side::Negative);
         let corners = [curve.cracking, curve.yielding].into_iter();
         let passed = corners.filter(|corner| part.deformation_min >= corner.deformation);
         Some(passed.count() as u8)

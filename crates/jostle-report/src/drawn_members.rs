@@ -85,22 +85,65 @@ impl DiagonalData {
     }
 }
 
-/// Column lines of a building in plan as they stand beside each other along the row, from its left edge to its right one \[m\].
-pub(crate) fn lines_along(tiers: &Tiers) -> Vec<f64> {
-    /// Closer lines are drawn as one \[m\].
-    const ONE: f64 = 0.05;
-    let [from, to] = tiers.extent_along();
-    let columns = tiers
-        .space_frame
-        .iter()
-        .flat_map(MemberData::all_of)
-        .filter(|member| member.floors[0] != member.floors[1])
-        .map(|member| member.ends[0][0] - from);
-    let mut lines: Vec<f64> = columns.collect();
-    lines.extend([0.0, to - from]);
-    lines.sort_by(f64::total_cmp);
-    lines.dedup_by(|next, line| *next - *line < ONE);
-    lines
+/// A building in plan as it is seen across the row.
+pub(crate) struct SeenAcross {
+    /// Column lines, and edges of floors, from the left edge of the widest floor to its right one \[m\].
+    pub(crate) lines: Vec<f64>,
+    /// Storeys from 1 that have a column there or end there, by line.
+    pub(crate) storeys: Vec<Vec<usize>>,
+}
+
+impl SeenAcross {
+    pub(crate) fn new(tiers: &Tiers) -> Self {
+        /// Closer lines are drawn as one \[m\].
+        const ONE: f64 = 0.05;
+        let left = tiers.extent_along()[0];
+        let columns = tiers
+            .space_frame
+            .iter()
+            .flat_map(MemberData::all_of)
+            .filter(|member| member.floors[0] != member.floors[1])
+            .filter_map(|member| Some((member.floors[1]? + 1, member.ends[0][0] - left)));
+        let edges = tiers.floors.iter().enumerate().flat_map(|(floor, tier)| {
+            let across = tier.plan.iter().map(|corner| corner[0] - left);
+            let least = across.clone().fold(f64::INFINITY, f64::min);
+            let most = across.fold(f64::NEG_INFINITY, f64::max);
+            [(floor + 1, least), (floor + 1, most)]
+        });
+        let mut places: Vec<(usize, f64)> = columns.chain(edges).collect();
+        places.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        let (mut lines, mut storeys): (Vec<f64>, Vec<Vec<usize>>) = (Vec::new(), Vec::new());
+        for (storey, place) in places {
+            match (lines.last(), storeys.last_mut()) {
+                (Some(line), Some(own)) if place - line < ONE => own.push(storey),
+                _ => {
+                    lines.push(place);
+                    storeys.push(vec![storey]);
+                }
+            }
+        }
+        for own in &mut storeys {
+            own.sort_unstable();
+            own.dedup();
+        }
+        Self { lines, storeys }
+    }
+
+    /// Whether every line has a column in every storey.
+    pub(crate) fn is_regular(&self, storeys: usize) -> bool {
+        self.storeys.iter().all(|own| own.len() == storeys)
+    }
+
+    /// The first and the last line of every storey.
+    pub(crate) fn outer(&self, storeys: usize) -> Vec<[usize; 2]> {
+        let outer = |storey: usize| {
+            let has = |own: &Vec<usize>| own.contains(&storey);
+            let first = self.storeys.iter().position(has);
+            let last = self.storeys.iter().rposition(has);
+            [first.unwrap_or_default(), last.unwrap_or_default()]
+        };
+        (1..=storeys).map(outer).collect()
+    }
 }
 
 impl WallData {

@@ -4,6 +4,7 @@ use jostle::FibreLimit;
 use jostle::results::summary::FibreSummary;
 use maud::{Markup, html};
 
+use crate::static_plot::Plot;
 use crate::{Page, fibre_paths, format, message};
 
 /// Most rows of the table.
@@ -31,8 +32,12 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             @if !paths.is_empty() {
                 div.static-plots { @for path in &paths { (path.figure()) } }
                 p.quiet {
-                    @if all.iter().any(|end| has_strains(end)) { (message::paths_of_ends(paths.len())) }
-                    @else { (message::paths_on_surfaces(paths.len())) }
+                    @let strained = all.iter().any(|end| has_strains(end));
+                    @if strained { (message::paths_of_ends()) } @else { (message::paths_on_surfaces()) }
+                    @if paths.iter().any(Plot::has_dashes) {
+                        " "
+                        @if strained { (message::capacity_is_dashed()) } @else { (message::surface_is_dashed()) }
+                    }
                 }
             }
             (table(&all))

@@ -1,6 +1,6 @@
 //! Cracking and yielding: places, selected loops, the table in order of yielding.
 
-use jostle::hysteresis::{Backbone, Hysteresis, Side};
+use jostle::hysteresis::{Backbone, Hysteresis, HysteresisRule, Side};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Structure};
 use jostle::results::summary::{BuildingSummary, SpringSummary};
@@ -31,6 +31,13 @@ pub(crate) struct Place {
     pub(crate) at: SpringPlace,
     /// Its rule.
     pub(crate) hysteresis: Hysteresis,
+}
+
+impl Place {
+    /// Whether it is a brace that buckles, which does not crack.
+    pub(crate) fn buckles(&self) -> bool {
+        matches!(self.hysteresis.rule(), HysteresisRule::Buckling(_))
+    }
 }
 
 /// Every hinge of the buildings, from the left building on; springs of bearings, shear of columns and fibres are shown elsewhere.
@@ -310,9 +317,16 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
         _ => [format!("mrad; {length}"), format!("{moment}; {force}")],
     };
     let energy = format::ENERGY.name();
+    let buckles = order.iter().any(|(place, _)| place.buckles());
     let columns = [
         (message::cracked(), "s"),
-        (message::yielded(), "s"),
+        (
+            match buckles {
+                true => message::yielded_or_buckled(),
+                false => message::yielded(),
+            },
+            "s",
+        ),
         (message::ductility(), ""),
         (message::greatest_positive(), &deformation[..]),
         (message::greatest_negative(), &deformation[..]),
@@ -327,7 +341,7 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
         }
         div.scroll {
             table #hinge-table.clipped[shown.len() > FIRST_ROWS] {
-                caption.quiet { (message::in_order_of_yielding()) }
+                caption.quiet { @if buckles { (message::in_order_of_yielding_or_buckling()) } @else { (message::in_order_of_yielding()) } }
                 thead { tr {
                     th.number scope="col" { (message::ordinal()) }
                     th scope="col" { (message::where_word()) }
@@ -340,7 +354,7 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
                         tr.beyond[i >= FIRST_ROWS] {
                             td.number { (i + 1) }
                             td { (name(page, place)) }
-                            @for value in cells(spring, slides(place.at)) { td.number { (value) } }
+                            @for value in cells(spring, place) { td.number { (value) } }
                         }
                     }
                 }
@@ -352,7 +366,8 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
     }
 }
 
-fn cells(spring: &SpringSummary, slides: bool) -> [String; 7] {
+fn cells(spring: &SpringSummary, place: &Place) -> [String; 7] {
+    let slides = slides(place.at);
     // A hinge that turns has radians and moments.
     let deformation = |value: f64| match slides {
         true => format::significant(format::LENGTH.of(value), 3),
@@ -366,7 +381,7 @@ fn cells(spring: &SpringSummary, slides: bool) -> [String; 7] {
     let instant =
         |t: Option<f64>| t.map_or_else(|| format::NOTHING.into(), |t| format::fixed(t, 3));
     [
-        instant(spring.cracked_s),
+        instant(spring.cracked_s.filter(|_| !place.buckles())),
         instant(spring.yielded_s),
         format::significant(spring.ductility, 3),
         deformation(spring.deformation_max),

@@ -4,10 +4,10 @@ use jostle::Structure;
 use jostle::linear::sort_by;
 use jostle::model::capacity_rule_title;
 use jostle::results::summary::{
-    BuildingSummary, CapacitySummary, ExceededSummary, JointSummary, MemberSummary, RatioPlace,
-    SectionSummary,
+    BuildingSummary, CapacitySummary, ExceededSummary, ImpactPlace, JointSummary, MemberSummary,
+    RatioPlace, SectionSummary,
 };
-use jostle_section::capacity::ShearRule;
+use jostle_section::capacity::CapacityRule;
 use maud::{Markup, html};
 
 use crate::message;
@@ -31,7 +31,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         .filter_map(|b| b.capacity.as_ref());
     let rule = rated
         .next()
-        .and_then(|capacity| ShearRule::from_name(capacity.rule));
+        .and_then(|capacity| CapacityRule::from_name(capacity.rule));
     let members = page.summary.buildings.iter().flat_map(|b| &b.members);
     let in_space = members
         .flat_map(sections)
@@ -74,9 +74,12 @@ fn verdict(page: &Page, name: &str, capacity: &CapacitySummary) -> String {
             .impact
             .as_ref()
             .map_or_else(String::new, |impact| {
+                let height = format::plain(format::HEIGHT.of(impact.height_m), 4);
                 message::during_the_impact(
                     &impact.between[0],
                     &impact.between[1],
+                    place_of_impact(impact),
+                    height,
                     format::instant(impact.start_s),
                 )
             });
@@ -103,6 +106,15 @@ fn verdict(page: &Page, name: &str, capacity: &CapacitySummary) -> String {
             &worst,
         ),
         None => message::none_of_members_is_beyond(name, capacity.rated, &worst),
+    }
+}
+
+/// Whether an impact strikes the member that is spoken of, or lies elsewhere, as a part of a sentence; empty if that is not known.
+pub(crate) fn place_of_impact(impact: &ImpactPlace) -> &'static str {
+    match impact.on_member {
+        Some(true) => message::impact_on_it(),
+        Some(false) => message::impact_elsewhere(),
+        None => "",
     }
 }
 

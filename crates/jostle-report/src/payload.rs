@@ -1,6 +1,5 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
-use jostle::Frame;
 use jostle::history::{Column, EnergyTerm, History, Kind, Owner};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
@@ -13,7 +12,7 @@ use serde::Serialize;
 use crate::Page;
 use crate::damage::strut_stages;
 use crate::devices::{self, side_column};
-use crate::drawn_members::{DiagonalData, MemberData, WallData, lines_along};
+use crate::drawn_members::{DiagonalData, MemberData, SeenAcross, WallData};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
 use crate::plan_motion::face_indentation;
@@ -80,7 +79,8 @@ struct Payload<'a> {
     bearing: Option<BearingData>,
 }
 
-/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends, `m` with thousandths of the storey), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
+/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends, `m` with thousandths of the storey), level, line, end, when it cracked and yielded \[s\], its greatest ductility \[–\], and
+/// whether it is a brace that buckles.
 type HingeData = (
     usize,
     char,
@@ -90,6 +90,7 @@ type HingeData = (
     Option<f64>,
     Option<f64>,
     f64,
+    bool,
 );
 
 /// The loop of one hinge.
@@ -139,7 +140,7 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
-    /// Storeys with a column from 1, by column line, of a frame in one plane that lacks some.
+    /// Storeys with a column from 1, by column line, of a frame that lacks some; in space, storeys whose floor ends there as well.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     standing: Vec<Vec<usize>>,
     /// Height of the base above the datum, if it is not zero \[m\].
@@ -353,7 +354,17 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
         .map(|place| {
             let (kind, level, line, end) = hinges::coordinates(page, place);
             let line = member_number(page, place).unwrap_or(line);
-            (place.building, kind, level, line, end, None, None, 0.0)
+            (
+                place.building,
+                kind,
+                level,
+                line,
+                end,
+                None,
+                None,
+                0.0,
+                place.buckles(),
+            )
         })
         .collect();
     let short = |t: f64| (t * 1e4).round() / 1e4;
@@ -366,7 +377,7 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
             continue;
         };
         let entry = &mut data[index];
-        entry.5 = spring.cracked_s.map(short);
+        entry.5 = spring.cracked_s.filter(|_| !entry.8).map(short);
         entry.6 = spring.yielded_s.map(short);
         entry.7 = (spring.ductility * 1e3).round() / 1e3;
     }
@@ -458,14 +469,25 @@ fn outlines<'a>(page: &Page<'a>) -> Vec<Outline<'a>> {
 fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Outline<'a> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
-    let (frame, spans) = match &building.structure {
-        Structure::Frame(frame) => (true, frame.spans.clone()),
-        Structure::Tiers(tiers) => {
-            let lines = lines_along(tiers);
-            let spans = lines.windows(2).map(|pair| pair[1] - pair[0]);
-            (false, spans.collect())
+    let (frame, spans, standing) = match &building.structure {
+        Structure::Frame(frame) => {
+            let standing = match frame.is_regular() {
+                true => Vec::new(),
+                false => frame.storeys_of_lines(),
+            };
+            (true, frame.spans.clone(), standing)
         }
-        Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH]),
+        Structure::Tiers(tiers) => {
+            let seen = SeenAcross::new(tiers);
+            let spans = seen.lines.windows(2).map(|pair| pair[1] - pair[0]);
+            let spans = spans.collect();
+            let standing = match seen.is_regular(tiers.floors.len()) {
+                true => Vec::new(),
+                false => seen.storeys,
+            };
+            (false, spans, standing)
+        }
+        Structure::Shear(_) | Structure::Given(_) => (false, vec![NOMINAL_WIDTH], Vec::new()),
     };
     let plans = match &building.structure {
         Structure::Tiers(tiers) => {
@@ -524,10 +546,7 @@ fn outline<'a>(building: &'a Building, summary: Option<&BuildingSummary>) -> Out
         frame,
         heights: building.floor_heights(),
         spans,
-        standing: plane
-            .filter(|plane| !plane.is_regular())
-            .map(Frame::storeys_of_lines)
-            .unwrap_or_default(),
+        standing,
         elevation: Some(building.base.elevation).filter(|elevation| *elevation != 0.0),
         diagonals: diagonals.collect(),
         walls: plane

@@ -3,6 +3,7 @@
 use jostle::results::summary::{ShearFailure, ShearFailureSummary};
 use maud::{Markup, html};
 
+use crate::members::place_of_impact;
 use crate::{Page, format, message};
 
 /// Most rows of the table.
@@ -95,6 +96,7 @@ fn during(failure: &ShearFailure) -> String {
             message::both_at_height_from(
                 &impact.between[0],
                 &impact.between[1],
+                place_of_impact(impact),
                 format::plain(format::HEIGHT.of(impact.height_m), 4),
                 format::instant(impact.start_s),
             )

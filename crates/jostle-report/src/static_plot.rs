@@ -41,6 +41,11 @@ const BOTTOM: f64 = 36.0;
 const POINTS: usize = 1400;
 
 impl Plot {
+    /// Whether a line is dashed.
+    pub(crate) fn has_dashes(&self) -> bool {
+        self.lines.iter().any(|line| line.dashed)
+    }
+
     /// The figure; without points only the caption.
     pub(crate) fn figure(&self) -> Markup {
         let height = WIDTH * self.aspect;

@@ -81,7 +81,11 @@ pub(crate) fn impacts(page: &Page) -> Markup {
             @for gap in summary.gaps.iter().filter(|gap| gap.multiple_pounding_count > 0) {
                 p.quiet {
                     @if several { (gap.between[0]) " ↔ " (gap.between[1]) ": " }
-                    (message::of_poundings_are_at_several(gap.multiple_pounding_count, gap.pounding_count, gap.most_at_once))
+                    @match [gap.multiple_pounding_count, gap.pounding_count] {
+                        [_, 1] => (message::only_pounding_is_at_several(gap.most_at_once)),
+                        [1, all] => (message::one_of_poundings_is_at_several(all, gap.most_at_once)),
+                        [some, all] => (message::of_poundings_are_at_several(some, all, gap.most_at_once)),
+                    }
                 }
             }
             (restitution_note(page))

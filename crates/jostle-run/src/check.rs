@@ -159,6 +159,9 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
             let _ = writeln!(text, "{} {shown}", styled(LOUD, "warning:"));
             warnings.push(warning);
         }
+        if let Some(note) = opened.input.scaled_across(&motion) {
+            let _ = writeln!(text, "{} {note}", styled(LOUD, "note:"));
+        }
         let _ = describe_grounds(&mut text, &opened.system, &motion);
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
@@ -933,16 +936,21 @@ fn special(building: &Building) -> Vec<String> {
         lines.push("P-Delta included, from the weight above".into());
     }
     if let Structure::Frame(frame) = &building.structure {
+        // Walls and coupling beams say theirs in their own lines.
         let columns = frame
             .all_columns()
+            .filter(|(place, _)| frame.wall(*place).is_none())
             .filter_map(|column| column.1.shear_rigidity);
-        let beams = frame.all_beams().filter_map(|beam| beam.1.shear_rigidity);
+        let beams = frame
+            .all_beams()
+            .filter(|(place, _)| frame.coupling_beam(*place).is_none())
+            .filter_map(|beam| beam.1.shear_rigidity);
         let shear = list(&[
-            ("columns from", columns.min_by(f64::total_cmp), "N"),
-            ("beams from", beams.min_by(f64::total_cmp), "N"),
+            ("columns", columns.min_by(f64::total_cmp), "N"),
+            ("beams", beams.min_by(f64::total_cmp), "N"),
         ]);
         if !shear.is_empty() {
-            lines.push(format!("members deform in shear, GA: {shear}"));
+            lines.push(format!("members deform in shear, least GA: {shear}"));
         }
         let joint = list(&[
             ("rotation", frame.joint.rotational_stiffness, "N·m/rad"),

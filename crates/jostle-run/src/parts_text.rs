@@ -48,7 +48,7 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 writeln!(
                     text,
-                    "Out-of-plane demand of panels of {}: up to {ratio:.2} of their strength, in {name}{}",
+                    "Out-of-plane demand of panels of {}: up to {ratio:.2} times their strength, in {name}{}",
                     building.name,
                     fallen(building)
                 )?;
@@ -69,18 +69,25 @@ fn write_damage(text: &mut String, building: &BuildingSummary) -> std::fmt::Resu
     };
     let counts = (1..=4).rev().filter_map(|state| {
         let count = panels.iter().filter(|panel| panel.state == state).count();
-        (count > 0).then(|| format!("state {state} in {count}"))
+        (count > 0).then_some((state, count))
     });
+    // The first one says of how many panels.
+    let all = counted(panels.len(), "panel");
+    let counts = counts
+        .enumerate()
+        .map(|(index, (state, count))| match index {
+            0 => format!("{count} of {all} in state {state}"),
+            _ => format!("{count} in state {state}"),
+        });
     let counts: Vec<String> = counts.collect();
     let counts = match counts.is_empty() {
-        true => "none in any".to_owned(),
+        true => format!("none of {all} damaged"),
         false => counts.join(", "),
     };
     writeln!(
         text,
-        "Damage of infill panels of {} by drift: {counts} of {}; up to {:.2} % in {}",
+        "Infill damage by drift, {}: {counts}; up to {:.2} % in {}",
         building.name,
-        counted(panels.len(), "panel"),
         100.0 * worst.drift,
         worst.name
     )

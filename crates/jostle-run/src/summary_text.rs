@@ -10,12 +10,12 @@ use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::summary::{
-    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, ShearFailure,
-    Summary,
+    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, ImpactPlace, LinkSummary,
+    ShearFailure, Summary,
 };
 use jostle::separation::Requirements;
 use jostle_io::shown::{
-    ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
+    ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, HEIGHT, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
 use jostle_io::{Input, in_shown_units};
@@ -329,7 +329,17 @@ fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
     Ok(())
 }
 
-/// One line for every building that can crack and yield.
+/// What soil does to the first mode: its period there \[s\], over that on rigid ground, and the damping on rigid ground and there.
+fn on_soil([period, ratio]: [f64; 2], [fixed, damping]: [f64; 2]) -> String {
+    let change = if damping < fixed { "falls" } else { "rises" };
+    format!(
+        "the first period lengthens from {:.3} to {period:.3} s and damping {change} from {:.2} to {:.2} %",
+        period / ratio,
+        100.0 * fixed,
+        100.0 * damping
+    )
+}
+
 /// Foundations on soil, one line each.
 fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
     let mut between = "\n";
@@ -339,24 +349,26 @@ fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
         };
         writeln!(
             text,
-            "{between}foundation of {}: {} sway, {:.3} mrad rocking; the soil makes the first period {:.3} times as long and its damping {:.2} % instead of {:.2} %",
+            "{between}foundation of {}: {} sway, {:.3} mrad rocking; on soil, {}",
             building.name,
             LENGTH.text(foundation.sway_peak_m, 2),
             foundation.rocking_peak_rad * 1e3,
-            foundation.period_ratio,
-            100.0 * foundation.damping_ratio,
-            100.0 * foundation.damping_ratio_fixed
+            on_soil(
+                [foundation.period_s, foundation.period_ratio],
+                [foundation.damping_ratio_fixed, foundation.damping_ratio],
+            )
         )?;
         if let Some(plan) = &foundation.in_plan {
             writeln!(
                 text,
-                "  across: {} sway, {:.3} mrad rocking, {:.3} times the period, damping {:.2} % instead of {:.2} %; {:.3} mrad torsion",
+                "  across: {} sway, {:.3} mrad rocking, {:.3} mrad torsion; on soil, {}",
                 LENGTH.text(plan.sway_across_peak_m, 2),
                 plan.rocking_across_peak_rad * 1e3,
-                plan.period_ratio_across,
-                100.0 * plan.damping_ratio_across,
-                100.0 * plan.damping_ratio_across_fixed,
-                plan.torsion_peak_rad * 1e3
+                plan.torsion_peak_rad * 1e3,
+                on_soil(
+                    [plan.period_across_s, plan.period_ratio_across],
+                    [plan.damping_ratio_across_fixed, plan.damping_ratio_across],
+                )
             )?;
         }
         between = "";
@@ -520,13 +532,7 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
         let count = format!("{} of {}", failures.failed, failures.total);
         match failures.list.first() {
             Some(first) => {
-                let during = first.impact.as_ref().map_or_else(String::new, |impact| {
-                    let [left, right] = &impact.between;
-                    format!(
-                        ", during the impact of {left} and {right} from {:.3} s",
-                        impact.start_s
-                    )
-                });
+                let during = first.impact.as_ref().map_or_else(String::new, during);
                 let along = first
                     .along
                     .map_or_else(String::new, |axis| format!(" along {axis}"));
@@ -550,6 +556,22 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
         between = "";
     }
     Ok(())
+}
+
+/// The impact at an instant in words: whether it strikes the member that is named before, or where else it is.
+fn during(impact: &ImpactPlace) -> String {
+    let [left, right] = &impact.between;
+    let where_it_is = match impact.on_member {
+        Some(true) => "on it, ",
+        Some(false) => "elsewhere, ",
+        None => "",
+    };
+    format!(
+        ", during the impact of {left} and {right} {where_it_is}at {} {}, from {:.3} s",
+        HEIGHT.stated(impact.height_m),
+        HEIGHT.name(),
+        impact.start_s
+    )
 }
 
 /// The columns that fail after the first, each once, with the instant.
@@ -603,16 +625,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
         return Ok(());
     };
     let place = |exceedance: &ExceededSummary| {
-        let during = exceedance
-            .impact
-            .as_ref()
-            .map_or_else(String::new, |impact| {
-                let [left, right] = &impact.between;
-                format!(
-                    ", during the impact of {left} and {right} from {:.3} s",
-                    impact.start_s
-                )
-            });
+        let during = exceedance.impact.as_ref().map_or_else(String::new, during);
         format!(
             "{} in {} at its {}, t = {:.3} s{during}",
             exceedance.member, exceedance.kind, exceedance.at, exceedance.at_s
@@ -773,13 +786,17 @@ fn write_gap(
         )?;
     }
     if gap.multiple_pounding_count > 0 {
-        writeln!(
-            text,
-            "  {} of {} involve several floors (up to {}).",
-            gap.multiple_pounding_count,
-            counted(gap.pounding_count, "pounding"),
-            gap.most_at_once
-        )?;
+        let most = gap.most_at_once;
+        match [gap.multiple_pounding_count, gap.pounding_count] {
+            [_, 1] => writeln!(text, "  The only pounding involves {most} floors.")?,
+            [some, all] => {
+                let verb = if some == 1 { "involves" } else { "involve" };
+                writeln!(
+                    text,
+                    "  {some} of {all} poundings {verb} several floors (up to {most})."
+                )?;
+            }
+        }
         if let Some(at) = gap.total_force_peak_at_s {
             writeln!(
                 text,

@@ -390,6 +390,53 @@ p_delta = true
 hinges = { rule = "peak-oriented", cracking = "4 mm", yield = "15 mm", post_cracking = 0.4, post_yield = 0.005 }
 "#;
 
+const PANELS: &str = r#"
+[[building]]
+name = "P"
+storeys = 2
+storey_height = "3.3 m"
+spans = ["6 m"]
+concrete = "C30"
+column = { width = "400 mm", depth = "400 mm" }
+beam = { width = "300 mm", depth = "500 mm" }
+floor_mass = "30 t"
+[[building.infill]]
+modulus = "4 GPa"
+thickness = "200 mm"
+width = "mainstone"
+"#;
+
+/// Struts of panels bear compression alone: half of them crack and reach their strength; those without a strength do nothing.
+#[test]
+fn a_pushover_counts_struts_by_what_becomes_of_them() {
+    let strength = "strength = { rule = \"bertoldi\", compression = \"4 MPa\", shear = \"0.3 MPa\", sliding = \"0.2 MPa\" }\n";
+    let pushed = |more: &str| {
+        let folder = folder();
+        std::fs::write(folder.path().join("p.toml"), format!("{PANELS}{more}")).expect("a file");
+        let output = jostle(
+            folder.path(),
+            &["pushover", "p.toml", "--direction", "right"],
+        );
+        assert!(output.status.success(), "{}", complained(&output));
+        printed(&output)
+    };
+    let text = pushed(strength);
+    assert!(
+        text.contains("2 of 4 infill struts crack, 2 reach their strength"),
+        "{text}"
+    );
+    assert!(!text.contains("none") && !text.contains("hinges"), "{text}");
+    let text = pushed("");
+    assert!(
+        text.contains("its infill struts have no strength"),
+        "{text}"
+    );
+    assert!(
+        !text.contains("first yield") && !text.contains("hinges"),
+        "{text}"
+    );
+}
+
 #[test]
 fn pushover_tells_strength_and_writes_the_curve() {
     let folder = folder();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
-use jostle::{CouplingBeam, FramePlace, FrameWall, Section as CrossSection, WallHinge};
+use jostle::{CouplingBeam, Frame, FramePlace, FrameWall, Section as CrossSection, WallHinge};
 
 use super::brace::tables;
 use super::hinges::read_spring;
@@ -551,24 +551,7 @@ fn read_beams(
     walls: &[Option<FrameWall>],
 ) -> Option<Vec<(CouplingBeam, CrossSection)>> {
     let view = reader.open(entry, &[Section::CouplingBeam])?;
-    let storeys = bays.heights.len();
-    let places = match (reader.get(&view, "between"), reader.get(&view, "bay")) {
-        (Some(field), Some(_)) => {
-            *reader.bad(&field, "and bay are both given") = Some("leave out one of them".into());
-            None
-        }
-        (Some(field), None) => between(reader, &field, walls),
-        (None, Some(_)) => {
-            let named = range(reader, &view, "bay", bays.spans.len());
-            named.map(|named| (named, [1, storeys]))
-        }
-        (None, None) => {
-            reader.missing(&view, "between", "add between = [1, 2], the numbers of two walls in the order of the file; or bay = 1");
-            None
-        }
-    };
-    let stated = reader.get(&view, "floors");
-    let stated = stated.map(|_| range(reader, &view, "floors", storeys));
+    let places = beam_places(reader, &view, [bays.heights.len(), bays.spans.len()], walls);
     let bay = places.map_or(1, |([first, _], _)| first);
     // Between the faces of the walls.
     let half = |line: usize| {
@@ -595,15 +578,11 @@ fn read_beams(
         section.unwrap_or(UNREAD),
         stiffness_factors.unwrap_or([1.0; 2]),
     );
-    // A fault of the walls, noted elsewhere.
-    let length = clear.max(f64::MIN_POSITIVE);
+    // Without a clear length, a fault of the walls noted elsewhere, any stands in.
+    let length = if clear > 0.0 { clear } else { 1.0 };
     let shear = reader.get(&view, "hinge");
     let shear = shear.map(|field| read_sliding(reader, &field, stand_in, length));
     let ([first, last], floors) = places?;
-    let floors = match stated {
-        Some(stated) => stated?,
-        None => floors,
-    };
     let stiffness_factors = stiffness_factors?;
     let section = CrossSection {
         line_mass: 0.0,
@@ -625,6 +604,56 @@ fn read_beams(
         (beam, section)
     });
     Some(beams.collect())
+}
+
+/// First and last bay, and first and last floor, of the coupling beams of a table; `None` after a fault. `most`: storeys and bays.
+fn beam_places(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    most: [usize; 2],
+    walls: &[Option<FrameWall>],
+) -> Option<([usize; 2], [usize; 2])> {
+    let [storeys, bays] = most;
+    let places = match (reader.get(view, "between"), reader.get(view, "bay")) {
+        (Some(field), Some(_)) => {
+            *reader.bad(&field, "and bay are both given") = Some("leave out one of them".into());
+            None
+        }
+        (Some(field), None) => between(reader, &field, walls),
+        (None, Some(_)) => {
+            let named = range(reader, view, "bay", bays);
+            named.map(|named| (named, [1, storeys]))
+        }
+        (None, None) => {
+            reader.missing(view, "between", "add between = [1, 2], the numbers of two walls in the order of the file; or bay = 1");
+            None
+        }
+    };
+    let stated = reader.get(view, "floors");
+    let stated = stated.map(|_| range(reader, view, "floors", storeys));
+    let (bays, floors) = places?;
+    Some((bays, stated.unwrap_or(Some(floors))?))
+}
+
+/// The table, from 0, of a coupling beam that is counted over all of them.
+pub(super) fn table_of_beam(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    frame: &Frame,
+    beam: usize,
+) -> Option<usize> {
+    let walls: Vec<_> = frame.walls.iter().cloned().map(Some).collect();
+    let most = [frame.storey_heights.len(), frame.spans.len()];
+    let mut before = 0;
+    for (table, entry) in tables(reader, view, "coupling_beam").iter().enumerate() {
+        let view = reader.reopen(entry, &[Section::CouplingBeam])?;
+        let (bays, floors) = beam_places(reader, &view, most, &walls)?;
+        before += (1 + bays[1] - bays[0]) * (1 + floors[1] - floors[0]);
+        if beam < before {
+            return Some(table);
+        }
+    }
+    None
 }
 
 /// The bay between two walls, and the floors at which both stand.

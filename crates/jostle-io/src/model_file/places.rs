@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use jostle::{FramePlace, Model, Section as CrossSection, Structure};
+use jostle::{Frame, FramePlace, Model, Section as CrossSection, Structure};
 use jostle_section::formula::Member;
 
 use super::building::has_length;
+use super::frame_walls::table_of_beam;
 use crate::keys::{Section, keys_of};
 use crate::reader::{Field, Reader, View, join};
 use crate::tree::{Node, Value};
@@ -205,6 +206,12 @@ fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option
 
 /// Turns `building[0].column[2][1]`, the column of the third storey at the second line, into the path of the table that holds there.
 pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: &mut String) {
+    if path.contains(COUPLING_BEAM) {
+        if let Some(renamed) = rename_coupling_beam(reader, root, model, path) {
+            *path = renamed;
+        }
+        return;
+    }
     let found = |member: Member| {
         let key = format!(".{}[", keys(member)[0]);
         let (owner, rest) = path.split_once(&key)?;
@@ -222,22 +229,7 @@ pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: 
     let Some((member, owner, storey, line, rest)) = place else {
         return;
     };
-    let numbers = owner
-        .split(['[', ']'])
-        .filter_map(|part| part.parse::<usize>().ok());
-    let numbers: Vec<usize> = numbers.collect();
-    let building = numbers
-        .first()
-        .and_then(|index| model.buildings.get(*index));
-    let frame = match building.map(|building| &building.structure) {
-        Some(Structure::Frame(frame)) => Some(frame),
-        Some(Structure::Tiers(tiers)) => {
-            let frame = numbers.get(1).and_then(|index| tiers.frames.get(*index));
-            frame.map(|frame| &frame.frame)
-        }
-        _ => None,
-    };
-    let (Some(frame), Some(node)) = (frame, node_at(root, owner)) else {
+    let (Some(frame), Some(node)) = (frame_at(model, owner), node_at(root, owner)) else {
         return;
     };
     let Some(view) = reader.reopen(&Field::root(node), &[Section::Frame]) else {
@@ -262,6 +254,38 @@ pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: 
         _ => keys(member)[0].to_owned(),
     };
     *path = format!("{}{rest}", join(owner, &entry));
+}
+
+/// Before the number of a coupling beam in a path.
+const COUPLING_BEAM: &str = ".coupling_beam[";
+
+/// The path of the table that gives a coupling beam, which may give one at every floor.
+fn rename_coupling_beam(
+    reader: &mut Reader<'_>,
+    root: &Node,
+    model: &Model,
+    path: &str,
+) -> Option<String> {
+    let (owner, rest) = path.split_once(COUPLING_BEAM)?;
+    let (beam, rest) = rest.split_once(']')?;
+    let beam = beam.parse().ok()?;
+    let frame = frame_at(model, owner)?;
+    let field = Field::root(node_at(root, owner)?);
+    let view = reader.reopen(&field, &[Section::Frame])?;
+    let table = reader.quietly(|reader| table_of_beam(reader, &view, frame, beam))?;
+    Some(format!("{owner}{COUPLING_BEAM}{table}]{rest}"))
+}
+
+/// The frame of a path such as `building[0]` or `building[0].frame[1]`.
+fn frame_at<'m>(model: &'m Model, owner: &str) -> Option<&'m Frame> {
+    let mut numbers = owner
+        .split(['[', ']'])
+        .filter_map(|part| part.parse::<usize>().ok());
+    match &model.buildings.get(numbers.next()?)?.structure {
+        Structure::Frame(frame) => Some(frame),
+        Structure::Tiers(tiers) => Some(&tiers.frames.get(numbers.next()?)?.frame),
+        Structure::Shear(_) | Structure::Given(_) => None,
+    }
 }
 
 /// The value at a path such as `building[0].frame[1]`.

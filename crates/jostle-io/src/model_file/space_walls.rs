@@ -25,6 +25,8 @@ pub(super) struct WallStorey {
     length: f64,
     /// Its ends that are made of fibres.
     fibres: Option<ColumnFibres>,
+    /// On EI and on GA.
+    stiffness_factors: [f64; 2],
 }
 
 /// The building in which walls stand.
@@ -82,6 +84,7 @@ pub(super) fn read_all<'n>(
                 along: wall.along,
                 length: wall.length,
                 fibres: wall.fibres.get(&(place.storey() + 1)).cloned(),
+                stiffness_factors: wall.stiffness_factors,
             });
         }
     }
@@ -113,6 +116,7 @@ pub(super) fn add_to(walls: Vec<WallStorey>, frame: &mut SpaceFrame) {
                 storeys: [storey; 2],
                 along: wall.along,
                 length: wall.length,
+                stiffness_factors: wall.stiffness_factors,
             }),
         }
     }
@@ -125,6 +129,8 @@ struct Read<'n> {
     member: Member<'n>,
     /// By storey, from 1.
     fibres: BTreeMap<usize, ColumnFibres>,
+    /// On EI and on GA.
+    stiffness_factors: [f64; 2],
     /// Where it stands: lines of `lines_x` and of `lines_y`, and storeys, from 1.
     ranges: [[usize; 2]; 3],
 }
@@ -248,6 +254,7 @@ fn read<'n>(
         length,
         member,
         fibres,
+        stiffness_factors: [bending, shear],
         ranges: [x, y, storeys],
     })
 }

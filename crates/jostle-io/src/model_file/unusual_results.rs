@@ -2,6 +2,7 @@
 
 use jostle::results::overdamped_contacts;
 use jostle::results::summary::Summary;
+use jostle::statics::STANDARD_GRAVITY;
 use jostle::{Building, GroundMotion, LawKind, Model, Structure, System, Wave};
 
 use super::Input;
@@ -44,6 +45,30 @@ impl Input {
             format!(
                 "{PATH}: {pga} m/s² is {} of the peak of the record; is it {pga} g?",
                 three_digits(motion.scale.abs())
+            )
+        })
+    }
+
+    /// That a motion across takes the factor of the motion, where their peaks are far apart: right for two components of one record alone.
+    #[must_use]
+    pub fn scaled_across(&self, motion: &GroundMotion) -> Option<String> {
+        /// Ratio of the peaks of both components of a record that is still usual \[–\].
+        const USUAL: f64 = 2.0;
+        let spec = self.motion.as_ref()?.bearing.as_ref()?.across.as_ref()?;
+        let across = motion.across()?;
+        let takes_the_factor = motion.scale != 1.0
+            && spec.scaling == Scaling::AsRecorded
+            && !spec.source.states_its_size();
+        let [along, peak] = [motion.peak(), across.peak()];
+        let is_usual = peak <= USUAL * along && along <= USUAL * peak;
+        (takes_the_factor && !is_usual).then(|| {
+            format!(
+                "{} across takes the factor of {}, {}, as if both were components of one record: its peak is {} g beside {} g; give its own, across = {{ record = …, pga = … }}",
+                across.name,
+                motion.name,
+                three_digits(motion.scale.abs()),
+                three_digits(peak / STANDARD_GRAVITY),
+                three_digits(along / STANDARD_GRAVITY)
             )
         })
     }

@@ -806,3 +806,16 @@ fn single_tables_and_lists_of_one_name_exclude_each_other() {
         "{shown}"
     );
 }
+
+/// Keys of the building after a header of one of its tables say where they belong.
+#[test]
+fn keys_of_the_building_below_a_header_are_sent_back() {
+    let frame = "[[building]]\nname = \"A\"\nstoreys = 2\nstorey_height = 3\nspans = [5]\ncolumn = { width = 0.4, depth = 0.4 }\nbeam = { width = 0.3, depth = 0.5 }\nelastic_modulus = 3e10\nfloor_mass = 3e4\n[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = 0.2\nwidth = \"mainstone\"\n";
+    for (key, value) in [("base", "{ rotation = 1e8 }"), ("gravity", "true")] {
+        let told = refusal(&format!("{frame}{key} = {value}\n"));
+        let said =
+            format!("{key} belongs to the building: write it above the first [[building.infill]]");
+        assert!(told.contains(&said), "{told}");
+        assert!(!told.contains("did you mean"), "{told}");
+    }
+}

@@ -228,6 +228,8 @@ fn walls_that_do_not_fit_are_refused() {
         (format!("{two}{beam}between = [1, 3]\n"), &["coupling_beam[0].between", "wall 3, but there are 2"]),
         (format!("{beam}between = [1, 2]\n"), &["coupling_beam[0].between", "but there are 0"]),
         (format!("{two}{beam}bay = 2\n"), &["coupling_beam", "line 3", "no wall stands"]),
+        (format!("{two}{beam}between = [1, 2]\n{beam}bay = 2\n"), &["coupling_beam[1]", "line 3", "no wall stands"]),
+        (format!("{two}{beam}bay = 1\nhinge = {{ rule = \"normal\", cracking = \"300 kN\", yield = \"250 kN\", post_cracking = 0.3, post_yield = 0.02 }}\n"), &["coupling_beam[0].hinge.yield", "less than cracking, found 0.8333 times it"]),
         (format!("{two}{beam}"), &["coupling_beam[0]", "add between ="]),
         (format!("{two}{beam}between = [1, 2]\n{beam}bay = 1\nfloors = 2\n"), &["coupling_beam[1]", "second time"]),
         (format!("{two}{beam}between = [1, 2]\n[[building.beam]]\nbay = 1\nwidth = 0.3\ndepth = 0.5\n"), &["beam[1]", "where a coupling beam is"]),
@@ -257,4 +259,21 @@ fn walls_that_do_not_fit_are_refused() {
             assert!(message.contains(word), "{word} is not in\n{message}\nof\n{more}");
         }
     }
+}
+
+/// A table gives a coupling beam at every floor: its fault is told once, at the table.
+#[test]
+fn a_fault_of_coupling_beams_is_told_once() {
+    let two = "[[building.wall]]\nline = 1\nlength = 3\nthickness = 0.25\n[[building.wall]]\nline = 2\nlength = 2\nthickness = 0.25\n";
+    let beam = "[[building.coupling_beam]]\nwidth = 0.3\ndepth = 0.6\nbay = 2\n";
+    let told = refusal(&file(&format!("{two}{beam}")));
+    assert_eq!(told.matches("where no wall stands").count(), 1, "{told}");
+    // Nor does a wall that leaves no room make a fault of the hinge.
+    let long = two.replace("length = 3", "length = 9");
+    let hinged = "[[building.coupling_beam]]\nwidth = 0.3\ndepth = 0.6\nbay = 1\nhinge = { rule = \"bilinear\", yield = \"250 kN\", post_yield = 0.02 }\n";
+    let told = refusal(&file(&format!("{long}{hinged}")));
+    assert!(
+        told.contains("no clear span") && !told.contains("hinge"),
+        "{told}"
+    );
 }

@@ -4,7 +4,7 @@ use jostle::SpaceFrame;
 use jostle::model::{Building, Structure};
 use maud::{Markup, html};
 
-use crate::drawn_members::{DiagonalData, MemberData};
+use crate::drawn_members::{DiagonalData, MemberData, SeenAcross};
 use crate::message;
 use crate::static_plot::colour;
 use crate::walls::{SceneWall, stands_on_site, walls};
@@ -44,10 +44,7 @@ impl Outline {
         let height = floors.last().copied().unwrap_or(0.0);
         let lines = match &building.structure {
             Structure::Frame(frame) => frame.line_positions(),
-            Structure::Tiers(tiers) => {
-                let [from, to] = tiers.extent_along();
-                vec![0.0, to - from]
-            }
+            Structure::Tiers(tiers) => SeenAcross::new(tiers).lines,
             Structure::Shear(_) | Structure::Given(_) => {
                 vec![0.0, (SLENDERNESS * height).max(LEAST_WIDTH)]
             }
@@ -57,6 +54,11 @@ impl Outline {
                 let floors = 1..=floors.len();
                 let outer = floors.map(|floor| frame.outer_lines(floor).unwrap_or_default());
                 (frame.storeys_of_lines(), outer.collect())
+            }
+            Structure::Tiers(tiers) => {
+                let seen = SeenAcross::new(tiers);
+                let outer = seen.outer(floors.len());
+                (seen.storeys, outer)
             }
             _ => (Vec::new(), Vec::new()),
         };
@@ -298,7 +300,10 @@ fn drawing(
                 (in_space(frame, tiers.extent_along()[0], outline, [left, scale, ground]))
             } @else {
                 line.columns x1=(round(middle)) x2=(round(middle)) y1=(round(y(outline.foot))) y2=(round(top)) {}
-                @for floor in &outline.floors { line.slabs x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
+                @for (level, floor) in outline.floors.iter().enumerate() {
+                    @let [from, to] = outline.outer.get(level).map_or([left, right], |outer| outer.map(|line| x(outline.lines[line])));
+                    line.slabs x1=(round(from)) x2=(round(to)) y1=(round(y(*floor))) y2=(round(y(*floor))) {}
+                }
             }
         }
         @if let Some(foundation) = &building.base.foundation {

@@ -382,6 +382,7 @@ messages! {
     greatest_negative = "greatest −";
     the_first_of_in_order(most_rows, all) = "The first {most_rows} of {all} in order of yielding; hinges.parquet contains all of them.";
     in_order_of_yielding = "In order of yielding.";
+    in_order_of_yielding_or_buckling = "In order of yielding or buckling.";
     ordinal = "no.";
     show_all_places(shown) = "Show all {shown}";
 
@@ -412,7 +413,9 @@ messages! {
     rotations_of_yielding_ends_chord = "Rotations of yielding ends: chord rotation by EN 1998-3 (DL damage limitation, SD significant damage, NC near collapse), plastic rotation by ASCE 41 (IO immediate occupancy, LS life safety, CP collapse prevention), and crushing of the section; in this order, if they apply.";
     greatest_forces_of_every_member = "Peak forces of every member, sorted by the greatest ratio if capacities are known, otherwise with struck columns first, then by shear. Axial forces are positive in tension; shear and moment are the greatest absolute values at both ends and on both sides of a struck point. Shears and moments do not include damping forces.";
     greatest_of_both_planes_of_bending = "In a space frame they are the greatest of both planes of bending.";
-    during_the_impact(left, right, start) = ", during the impact of {left} and {right} that starts at {start}";
+    during_the_impact(left, right, where_it_is, height, start) = ", during the impact of {left} and {right} {where_it_is}at {height} {m}, from {start}";
+    impact_on_it = "on it, ";
+    impact_elsewhere = "elsewhere, ";
     in_at(member, kind, at, at_2, during) = "{member} in {kind} at its {at}, at {at_2}{during}";
     greatest_ratio_title(ratio, worst) = "Greatest ratio {ratio}: {worst}.";
     of_members_are_beyond(name, exceeded, rated, in_shear, place, worst) = "{name}: {exceeded} of {rated} members exceed their capacity, {in_shear} of them in shear; first {place}. {worst}";
@@ -559,7 +562,7 @@ messages! {
     harder_without_capacity(note, member, force) = "{note}; {member}, up to {force}, has no known capacity";
     capacity_unknown(note) = "{note}; capacity not known";
     columns_failed = "Columns failed in shear";
-    worst_effect = "Largest increase by pounding";
+    worst_effect = "Largest increase due to pounding";
     times_without(ratio) = "× {ratio}";
     drift_of_storey(building, storey, peak) = "drift of {building}, storey {storey}: {peak}";
     shear_of_storey(building, storey, peak) = "shear of {building}, storey {storey}: {peak}";
@@ -950,6 +953,8 @@ messages! {
     the_strongest_of_impacts_impacts(most_rows, all) = "The {most_rows} strongest of {all}  impacts; impacts.parquet contains all of them.";
     show_all_impacts(rows) = "Show all {rows} impacts";
     of_poundings_are_at_several(multiple_pounding_count, pounding_count, most_at_once) = "{multiple_pounding_count} of {pounding_count} poundings involve several floors (up to {most_at_once}).";
+    one_of_poundings_is_at_several(pounding_count, most_at_once) = "1 of {pounding_count} poundings involves several floors (up to {most_at_once}).";
+    only_pounding_is_at_several(most_at_once) = "The only pounding involves {most_at_once} floors.";
     restitution_is_separation_speed_impact = "Restitution is separation speed ÷ impact speed, as computed.";
     two_free_masses_would = "Two free masses would rebound with";
     under_this_contact_law = "under this contact law.";
@@ -1111,6 +1116,8 @@ messages! {
     over_time_of(title) = "{title} over time";
     at_instant(instant) = "at {instant} s";
     not_cracked = "not cracked";
+    neither_yielded_nor_buckled = "neither yielded nor buckled";
+    yielded_or_buckled = "yielded or buckled";
     struts_of_the_whole_run = "infill struts, whole run: dashed where cracked, full where the strength was reached";
     yielded_greatest_ductility = "yielded, greatest ductility:";
     over_value(value) = "over {value}";
@@ -1230,8 +1237,10 @@ messages! {
     compression_axis(unit) = "compression [{unit}]";
     path_of_the_run = "this run";
     interaction_of_the_section = "capacity";
-    paths_on_surfaces(count) = "Axial compression and moment of column ends; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone.";
-    paths_of_ends(count) = "Axial compression and moment of the ends whose strains are closest to a limit or furthest beyond it; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns can exceed it.";
+    paths_on_surfaces = "Axial compression and moment of column ends.";
+    surface_is_dashed = "The dashed curve is the capacity of the section in that plane of bending alone.";
+    paths_of_ends = "Axial compression and moment of the ends whose strains are closest to a limit or furthest beyond it.";
+    capacity_is_dashed = "The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns can exceed it.";
 
     // panels
     infill_panels = "Infill panels";
@@ -1267,7 +1276,7 @@ messages! {
     first_shear_failures(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
     in_order_of_time_by_building = "In order of time, building by building.";
     during_the_impact_of = "during the impact of";
-    both_at_height_from(left, right, height, start) = "{left} and {right} at {height} {m}, from {start}";
+    both_at_height_from(left, right, where_it_is, height, start) = "{left} and {right} {where_it_is}at {height} {m}, from {start}";
     columns_that_failed_in_shear = "columns that failed in shear";
     failed_of_all(failed, all) = "{failed} of {all}";
     strength = "strength";

@@ -113,7 +113,8 @@ impl Chart {
     /// A dot where hinges crack or yield.
     fn event(&self, one: &PushedBuilding, curve: &Pushover, point: &PushPoint) -> Markup {
         let has = |kind| point.events.iter().any(|event| event.kind == kind);
-        let (class, radius) = if has(PushEventKind::Fails) || has(PushEventKind::Yields) {
+        let yields = point.events.iter().any(|event| event.kind.is_yield());
+        let (class, radius) = if has(PushEventKind::Fails) || yields {
             ("event yielded", 4.0)
         } else if has(PushEventKind::Cracks) {
             ("event cracked", 3.4)

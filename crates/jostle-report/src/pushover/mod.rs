@@ -278,11 +278,12 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
     }
     let springs = one.building.equations.springs.len();
     let [cracked, yielded] = curve.counts(springs);
-    if springs > 0 {
+    let places = one.yielding_places();
+    if places > 0 {
         tiles.push((
             message::cracking_and_yielding_title(),
             message::yielded_yielded(yielded),
-            message::of_cracked(cracked, one.building.equations.yielding_places()),
+            message::of_cracked(cracked, places),
         ));
     }
     if one.links() > 0 {

@@ -184,7 +184,9 @@ fn curve(one: &PushedBuilding, curve: &Pushover, in_space: Option<&SpaceShape>) 
             };
             match event.kind {
                 PushEventKind::Cracks => stage[0] = Some(point.roof),
-                PushEventKind::Yields | PushEventKind::Fails => stage[1] = Some(point.roof),
+                PushEventKind::Yields | PushEventKind::Buckles | PushEventKind::Fails => {
+                    stage[1] = Some(point.roof);
+                }
                 PushEventKind::Closes | PushEventKind::Turns => {}
             }
         }

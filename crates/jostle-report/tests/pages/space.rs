@@ -1,6 +1,7 @@
 //! The page of buildings in space, and the drawing of their site.
 
 use jostle::System;
+use jostle::model::Structure;
 use jostle_report::{SitePlace, render, site_svg};
 
 use crate::fixture::{in_space, two_frames};
@@ -129,4 +130,27 @@ fn north_is_drawn_and_directions_have_bearings() {
     }
     let without = site_svg(&run.model, &system, Some(&run.motion), None).unwrap();
     assert!(!without.contains("north\"") && !without.contains("bearing"));
+}
+
+/// The elevation draws every storey as wide as its floor.
+#[test]
+fn floors_that_are_set_back_are_drawn_narrower() {
+    let mut run = in_space();
+    assert!(!render(&run.page()).contains("\"standing\":"));
+    let Structure::Tiers(tiers) = &mut run.model.buildings[1].structure else {
+        panic!("in plan");
+    };
+    let [from, to] = tiers.extent_along();
+    let middle = 0.5 * (from + to);
+    // The upper floor ends at the middle.
+    let top = tiers.floors.last_mut().expect("floors");
+    for corner in &mut top.plan {
+        corner[0] = corner[0].min(middle);
+    }
+    let all = tiers.floors.len();
+    let whole: Vec<String> = (1..=all).map(|storey| storey.to_string()).collect();
+    let low = whole[..all - 1].join(",");
+    let said = format!("\"standing\":[[{}],[{all}],[{low}]]", whole.join(","));
+    let page = render(&run.page());
+    assert!(page.contains(&said), "{said}");
 }

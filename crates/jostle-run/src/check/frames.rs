@@ -28,9 +28,7 @@ pub(super) fn axial_of_columns(frame: &Frame, known: Option<[bool; 2]>) -> Strin
             ", the default of frames with walls".to_owned()
         }
         (Some([false, _]), true, _) => format!(" (default above {})", limit("or")),
-        (Some([false, true]), false, _) => {
-            ": their foundation on soil neither rises nor sinks".to_owned()
-        }
+        (Some([false, true]), false, _) => " (default on a foundation on soil)".to_owned(),
         (Some([false, false]), false, true) => ": no EA".to_owned(),
         (Some([false, false]), false, false) => format!(" (default up to {})", limit("and")),
         (None, ..) => String::new(),
@@ -74,6 +72,14 @@ pub(super) fn members(frame: &Frame) -> String {
     text
 }
 
+/// Factors that EI and GA contain, if there are any.
+fn factors([bending, shear]: [f64; 2]) -> String {
+    match (bending, shear) {
+        (1.0, 1.0) => String::new(),
+        _ => format!(" (factors {bending:.3} on EI, {shear:.3} on GA)"),
+    }
+}
+
 /// Every wall and the coupling beams of a frame, with the rigidities in use.
 pub(super) fn walls(frame: &Frame) -> String {
     let rigidities = |section: Option<&Section>, [bending, shear]: [f64; 2]| {
@@ -91,11 +97,7 @@ pub(super) fn walls(frame: &Frame) -> String {
             Some(rigidity) => number("GA", Some(rigidity), LARGE_FORCE),
             None => ", rigid in shear".to_owned(),
         };
-        let factors = match (bending, shear) {
-            (1.0, 1.0) => String::new(),
-            _ => format!(" (factors {bending:.3} on EI, {shear:.3} on GA)"),
-        };
-        format!("{bent}{stretched}{sheared}{factors}")
+        format!("{bent}{stretched}{sheared}{}", factors([bending, shear]))
     };
     let storeys = |[first, last]: [usize; 2], noun: &str| match first == last {
         true => format!("{noun} {first}"),
@@ -108,7 +110,7 @@ pub(super) fn walls(frame: &Frame) -> String {
         let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
         let at_foot = |hinge: &jostle::WallHinge| hinge.storey == wall.storeys[0] && !hinge.at_head;
         let bends = match &wall.hinges[..] {
-            [] => by_fibres(wall.fibres.values()),
+            [] => String::new(),
             [hinge] if at_foot(hinge) => "at its foot".to_owned(),
             all => format!("at {} storey ends", all.len()),
         };
@@ -117,6 +119,10 @@ pub(super) fn walls(frame: &Frame) -> String {
             (bends, None) => format!(", yields {bends}"),
             ("", Some(_)) => ", yields in shear".to_owned(),
             (bends, Some(_)) => format!(", yields {bends} and in shear"),
+        };
+        let yields = match by_fibres(wall.fibres.values()) {
+            fibres if !fibres.is_empty() => format!(", {fibres}{yields}"),
+            _ => yields,
         };
         text += &format!(
             "  wall {} at {} {unit}, {}, {} {unit} long{}{yields}\n",
@@ -162,17 +168,20 @@ pub(super) fn walls(frame: &Frame) -> String {
 /// Fibres at ends of storeys of a wall; empty without any.
 fn by_fibres<'a>(all: impl Iterator<Item = &'a ColumnFibres>) -> String {
     let mut ends = 0;
-    let mut first = None;
+    let mut first: Option<&ColumnFibres> = None;
     for own in all {
         ends += own.at_ends.iter().filter(|stands| **stands).count();
         first = first.or(Some(own));
     }
     first.map_or_else(String::new, |own| {
+        let place = match (ends, own.at_ends) {
+            (1, [true, _]) => "the foot".to_owned(),
+            _ => counted(ends, "storey end"),
+        };
         format!(
-            "by {} fibres over {} at {}",
+            "fibre section ({} fibres) at {place}, hinge length {}",
             own.fibres.len(),
-            HEIGHT.text(own.length, 3),
-            counted(ends, "storey end")
+            HEIGHT.text(own.length, 3)
         )
     })
 }
@@ -206,10 +215,11 @@ pub(super) fn space_walls(frame: &SpaceFrame) -> String {
                     .shear_rigidity
                     .map(|shear_rigidity| shear_rigidity[plane]),
                 LARGE_FORCE,
-            );
+            )
+            + &factors(wall.stiffness_factors);
         let own = frame.fibres.iter().filter(|(place, _)| wall.has(**place));
         let yields = match by_fibres(own.map(|(_, own)| own)) {
-            fibres if !fibres.is_empty() => format!(", yields {fibres}"),
+            fibres if !fibres.is_empty() => format!(", {fibres}"),
             _ if member.may_yield() => ", yields".to_owned(),
             _ => String::new(),
         };
@@ -293,11 +303,17 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
         .map(|panel| panel.offsets[0].max(panel.offsets[1]));
     let offset = offsets.fold(0.0, f64::max);
     if offset > 0.0 {
-        text += &format!(", off the joints by up to {}", HEIGHT.text(offset, 2));
+        text += &format!(
+            ", struts connected up to {} from the joints",
+            HEIGHT.text(offset, 2)
+        );
     }
     if let Some(damage) = panels.find_map(|panel| panel.damage) {
         let drifts = damage.drifts.map(|drift| format!("{:.2}", 100.0 * drift));
-        text += &format!(", damaged at drifts of {} %", drifts.join(" / "));
+        text += &format!(
+            ", damage states 1–4 begin at drifts of {} %",
+            drifts.join(" / ")
+        );
     }
     let panels = diagonals.iter().filter_map(|diagonal| diagonal.across);
     let fall = match panels.clone().any(|panel| panel.falls) {

@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use crate::numbers::grouped;
 use crate::style::{BOLD, styled};
-use jostle::structure::StepEquations;
-use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
+use jostle::{GroundMotion, Plan, Solver, System};
 use jostle_io::shown::ACCELERATION;
 
 use super::decimals;
@@ -79,18 +78,5 @@ pub(super) fn describe_work(
         };
         writeln!(text, "  {links} {those} solved together in every step")?;
     }
-    if exact.is_some() {
-        return Ok(());
-    }
-    let sweeps = system
-        .buildings
-        .iter()
-        .map(|building| RiccatiSweep::new(building));
-    let couplings: usize = sweeps.map(|sweep| sweep.entries_of_l()).sum();
-    writeln!(
-        text,
-        "  {} entries of L: {} multiply-adds per solution",
-        grouped(couplings as u64),
-        grouped(2 * couplings as u64)
-    )
+    Ok(())
 }

@@ -73,6 +73,7 @@ fn struck(shear: f64, bending: f64) -> MemberSummary {
             floors: [None, Some(1)],
             height_m: 2.0,
             start_s: 0.9,
+            on_member: Some(true),
         }),
     };
     let section = SectionSummary::default();

@@ -100,7 +100,7 @@ fn panels_are_counted_by_their_damage() {
     assert!(panels[0].state > 0);
     let text = summary_text(&summary, &ran.prepared.input);
     let said = format!(
-        "Damage of infill panels of P by drift: state {} in 2 of 2 panels",
+        "Infill damage by drift, P: 2 of 2 panels in state {}",
         panels[0].state
     );
     assert!(text.contains(&said), "{said} in {text}");

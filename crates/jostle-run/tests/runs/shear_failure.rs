@@ -63,6 +63,18 @@ fn failures_are_reported_with_their_impacts() {
     }
     let text = summary_text(&summary, &ran.prepared.input);
     assert!(text.contains("fails in shear in "), "{text}");
+    if let Some(impact) = failures.list[0].impact.as_ref() {
+        let place = match impact.on_member {
+            Some(true) => "on it, ",
+            Some(false) => "elsewhere, ",
+            None => "",
+        };
+        let said = format!(
+            "{} and {} {place}at {} m, from {:.3} s",
+            impact.between[0], impact.between[1], impact.height_m, impact.start_s
+        );
+        assert!(text.contains(&said), "{said} in {text}");
+    }
     let json: serde_json::Value = serde_json::from_str(&summary_json(&summary)).expect("JSON");
     let json_failures = &json["buildings"][0]["shear_failures"];
     assert_eq!(json_failures["failed"], failures.failed);

@@ -206,6 +206,15 @@ impl CapacityRule {
         }
     }
 
+    /// Its document and clauses.
+    #[must_use]
+    pub const fn source(self) -> &'static str {
+        match self {
+            Self::Reinforced(rule) => rule.source(),
+            Self::Aisc360 => "AISC 360-16, chapters E to H",
+        }
+    }
+
     /// The rule for reinforced concrete, if it is one.
     #[must_use]
     pub const fn reinforced(self) -> Option<ShearRule> {

@@ -1,7 +1,8 @@
 //! What is kept and what is minimised: sums of named quantities, and conditions on them.
 
-use jostle_io::{Dimension, Factor, nearest_name, parse_quantity};
+use jostle_io::{Dimension, Factor, FactorValues, nearest_name, parse_quantity};
 
+use super::text::power_suffix;
 use crate::layout::Layout;
 
 /// A quantity of a trial.
@@ -199,10 +200,14 @@ impl<'a> Names<'a> {
             .enumerate()
             .find(|(_, (factor, column))| factor.name == name || **column == name);
         if let Some((index, (factor, _))) = input {
-            let suffix = if factor.unit.is_empty() {
-                String::new()
-            } else {
-                format!("_{}", factor.unit)
+            let power = match &factor.values {
+                FactorValues::Drawn(drawn) => power_suffix(&drawn.unit),
+                FactorValues::Listed(_) | FactorValues::Table(_) => None,
+            };
+            let suffix = match power {
+                Some(power) => power,
+                None if factor.unit.is_empty() => String::new(),
+                None => format!("_{}", factor.unit),
             };
             return Some((Source::Input(index), suffix));
         }

@@ -4,7 +4,7 @@ use jostle::linear::sort_by;
 use jostle_report::{Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study};
 use jostle_report::{message, typeset};
 
-use super::text::{in_words, number, rounded, rounded_up, shown};
+use super::text::{in_words, number, power_suffix, rounded, rounded_up, shown};
 use super::{SizeResults, Trial};
 use crate::row::Status;
 
@@ -14,7 +14,7 @@ const BEST: usize = 20;
 fn axis(name: &str, suffix: &str) -> Axis {
     Axis {
         name: in_words(name),
-        unit: shown(suffix).0.into(),
+        unit: shown(suffix).0,
     }
 }
 
@@ -238,7 +238,8 @@ impl SizeResults {
         let charts = self.other_inputs().map(|(index, (name, column))| {
             let suffix = ["_n_s_m", "_m_s2", "_n_m", "_m_s", "_m", "_n", "_s", "_kg"];
             let suffix = suffix.into_iter().find(|suffix| column.ends_with(suffix));
-            let suffix = suffix.unwrap_or_default();
+            let power = power_suffix(&self.bounds[index][0]);
+            let suffix = power.as_deref().or(suffix).unwrap_or_default();
             let size = shown(suffix).1;
             let dots = self.dots(|trial| Some(size * trial.inputs[index].0?), [0, 6]);
             Chart {

@@ -9,8 +9,21 @@ use super::SizeResults;
 use super::expression::SUFFIXES;
 use crate::key_words::key_in_words;
 
+/// Before the exponent in the suffix of a dashpot whose force is a power of the speed.
+const POWER: &str = "_n_(s/m)^";
+
+/// The suffix of a number in a unit such as `kN.(s/m)^0.5`; `None` for other units, whose names say their suffix.
+pub(super) fn power_suffix(text: &str) -> Option<String> {
+    let (_, exponent) = text.split_once("(s/m)^")?;
+    Some(format!("{POWER}{}", exponent.trim()))
+}
+
 /// Unit in which numbers with the end of such a name are shown, and its size.
-pub(super) fn shown(suffix: &str) -> (&'static str, f64) {
+pub(super) fn shown(suffix: &str) -> (String, f64) {
+    if let Some(exponent) = suffix.strip_prefix(POWER) {
+        let unit = format!("{}·(s/m)^{exponent}", FORCE.name());
+        return (unit, FORCE.of(1.0));
+    }
     let unit = match suffix {
         "_m" => LENGTH,
         "_n" => FORCE,
@@ -20,11 +33,11 @@ pub(super) fn shown(suffix: &str) -> (&'static str, f64) {
         "_m_s" => SPEED,
         "_m_s2" => ACCELERATION,
         "_kg" => MASS,
-        "_s" => return ("s", 1.0),
-        "_hz" => return ("Hz", 1.0),
-        _ => return ("", 1.0),
+        "_s" => return ("s".to_owned(), 1.0),
+        "_hz" => return ("Hz".to_owned(), 1.0),
+        _ => return (String::new(), 1.0),
     };
-    (unit.name(), unit.of(1.0))
+    (unit.name().to_owned(), unit.of(1.0))
 }
 
 /// A number with its unit, five digits.
@@ -277,5 +290,20 @@ impl SizeResults {
             let _ = write!(text, "\n  {}", page.display());
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashpots_of_a_power_of_the_speed_have_their_unit() {
+        let suffix = power_suffix("50 kN.(s/m)^0.5").expect("a power");
+        assert_eq!(rounded_up(411_957.558, &suffix), "412.0 kN·(s/m)^0.5");
+        assert_eq!(number(411_957.558, &suffix), "411.96 kN·(s/m)^0.5");
+        assert_eq!(shown(&suffix).0, "kN·(s/m)^0.5");
+        assert_eq!(power_suffix("100 kN.s/m"), None);
+        assert_eq!(rounded_up(483.6e3, "_n_s_m"), "483.6 kN·s/m");
     }
 }

@@ -384,3 +384,29 @@ fn errors_name_the_option_and_the_remedy() {
     let request = request(&["link.damping"], &["impact_count == 0"], "link.damping");
     assert!(SizeProblem::new(tree(&text), &request).is_ok());
 }
+
+/// The least coefficient of a power law is told in its own unit, on the terminal and on the axes of the page.
+#[test]
+fn a_power_law_is_sized_in_its_unit() {
+    let damped = DAMPED
+        .replace("100 kN.s/m", "100 kN.(s/m)^0.5")
+        .replace("exponent = 1.0", "exponent = 0.5");
+    let request = SizeRequest {
+        trials: 12,
+        ..request(
+            &[
+                "link.damping=50 kN.(s/m)^0.5..900 kN.(s/m)^0.5",
+                "gap.width=1 mm..100 mm",
+            ],
+            &[],
+            "link.damping",
+        )
+    };
+    let found = searched(&format!("{TOWERS}{damped}"), &request, None, 2);
+    let text = found.headline().join(" ");
+    assert!(text.contains(" kN·(s/m)^0.5, at "), "{text}");
+    assert!(
+        found.page().contains("[kN·(s/m)^0.5]"),
+        "no unit on an axis"
+    );
+}

@@ -79,7 +79,7 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
         let column = (0..2).find(|side| !stands_at(frame, [place[0], place[1] + side]));
         if let Some(side) = column {
             faults.add(field, format!(
-                "ends at line {} at floor {}, where no wall stands; add the wall, or make it a beam",
+                "ends at line {} at floor {}, where no wall stands; add the wall, name only floors at which both walls stand (floors = [1, 2]), or leave the table out: the beam of the frame spans the bay then",
                 beam.bay + side,
                 beam.floor
             ));

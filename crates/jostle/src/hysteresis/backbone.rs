@@ -454,19 +454,22 @@ fn validate(initial: f64, sides: [&Corners; 2]) -> Result<(), Vec<SpringFault>> 
         require(
             cracks,
             Quantity::Cracking,
-            format!("must be greater than zero, found {cracking}"),
+            "must be greater than zero".to_owned(),
         );
         let yields = yielding.is_finite() && yielding > 0.0;
         require(
             yields,
             Quantity::Yielding,
-            format!("must be greater than zero, found {yielding}"),
+            "must be greater than zero".to_owned(),
         );
         if cracks && yields {
             require(
                 yielding >= cracking,
                 Quantity::Yielding,
-                format!("must not be less than cracking ({cracking}), found {yielding}"),
+                format!(
+                    "must not be less than cracking, found {:.4} times it",
+                    yielding / cracking
+                ),
             );
         }
         let softens = post_cracking > 0.0 && post_cracking <= 1.0;

@@ -318,7 +318,7 @@ impl Hysteresis {
                 quantity: Quantity::Rule,
                 side: None,
                 problem: format!(
-                    "needs 0 < strength at rest <= strength at high speed and a rate of at least zero, found {slow}, {limit} and {rate}"
+                    "needs 0 < strength at rest <= strength at high speed and a rate of at least zero, found {slow} N, {limit} N and {rate} s/m"
                 ),
             }]);
         }

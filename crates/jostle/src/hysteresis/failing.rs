@@ -31,7 +31,7 @@ impl FallingBranch {
         }
         (!(0.0..strength).contains(&self.residual)).then(|| {
             format!(
-                "needs a residual force of at least zero and less than the strength, found {}",
+                "needs a residual force of at least zero and less than the strength, found {} N",
                 self.residual
             )
         })

@@ -300,7 +300,7 @@ impl Hysteresis {
                 quantity: Quantity::Rule,
                 side: None,
                 problem: format!(
-                    "needs 0 < strength at rest <= strength at high speed and a rate of at least zero, found {slow}, {fast} and {rate}"
+                    "needs 0 < strength at rest <= strength at high speed and a rate of at least zero, found {slow} N, {fast} N and {rate} s/m"
                 ),
             }])
         }

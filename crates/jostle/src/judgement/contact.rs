@@ -59,7 +59,7 @@ pub(super) fn restitution(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add((free - asked).abs(), || {
             let place = sides(known, index);
             let text = format!(
-                "{place}: the published {} formula with e = {asked} really rebounds with {free:.3}",
+                "{place}: the published {} formula with e = {asked}: free masses rebound with {free:.3}",
                 law.kind.name()
             );
             (place, text)

@@ -384,10 +384,14 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let change = if -least > most { least } else { most };
                 let ratio = change.abs() * modulus / (axial * strength);
                 tally.add(ratio, || {
+                    let compression = 1e-3 * (made_for - change);
+                    let becomes = match compression < 0.0 {
+                        true => format!("it goes into tension, {:.0} kN", -compression),
+                        false => format!("its compression changes to {compression:.0} kN"),
+                    };
                     let text = format!(
-                        "{}: its compression changes to {:.0} kN, but its hinges are computed for {:.0} kN; ν changes by {ratio:.2}, and the strength with it",
+                        "{}: {becomes}, but its hinges are computed for {:.0} kN of compression; ν changes by {ratio:.2}, and the strength with it",
                         member.name,
-                        1e-3 * (made_for - change),
                         1e-3 * made_for
                     );
                     (member.name.clone(), text)

@@ -91,6 +91,8 @@ pub struct SpaceWall {
     pub along: PlanAxis,
     /// Its length, > 0 \[m\].
     pub length: f64,
+    /// Factors that its EI and its GA contain, for texts \[–\].
+    pub stiffness_factors: [f64; 2],
 }
 
 impl SpaceWall {

@@ -82,6 +82,8 @@ pub enum PushEventKind {
     Cracks,
     /// It yields for the first time.
     Yields,
+    /// A brace buckles before it has yielded.
+    Buckles,
     /// A column fails in shear.
     Fails,
     /// The clearance of a stop, a stopper or a cable is used up.
@@ -91,12 +93,19 @@ pub enum PushEventKind {
 }
 
 impl PushEventKind {
+    /// Whether a spring leaves its elastic range for good: it yields, or buckles.
+    #[must_use]
+    pub fn is_yield(self) -> bool {
+        matches!(self, Self::Yields | Self::Buckles)
+    }
+
     /// Name in results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Cracks => "cracks",
             Self::Yields => "yields",
+            Self::Buckles => "buckles",
             Self::Fails => "fails",
             Self::Closes => "closes",
             Self::Turns => "corner",
@@ -183,10 +192,8 @@ impl Pushover {
         self.points.iter().find(|point| {
             point.events.iter().any(|event| match stage {
                 Stage::Uncracked => false,
-                Stage::Cracked => {
-                    matches!(event.kind, PushEventKind::Cracks | PushEventKind::Yields)
-                }
-                Stage::Yielded | Stage::Buckled => event.kind == PushEventKind::Yields,
+                Stage::Cracked => event.kind == PushEventKind::Cracks || event.kind.is_yield(),
+                Stage::Yielded | Stage::Buckled => event.kind.is_yield(),
                 Stage::Gone => false,
             })
         })
@@ -256,6 +263,7 @@ impl Pushover {
             let stage = match event.kind {
                 PushEventKind::Cracks => Stage::Cracked,
                 PushEventKind::Yields => Stage::Yielded,
+                PushEventKind::Buckles => Stage::Buckled,
                 PushEventKind::Turns | PushEventKind::Fails | PushEventKind::Closes => continue,
             };
             // Links beyond the springs of the building.
@@ -281,6 +289,17 @@ impl PushedBuilding<'_> {
     #[must_use]
     pub fn links(&self) -> usize {
         links(self.building).count()
+    }
+
+    /// Number of springs and sections that can crack or yield: all but struts without a strength.
+    #[must_use]
+    pub fn yielding_places(&self) -> usize {
+        let equations = &self.building.equations;
+        let elastic = equations.springs.iter().filter(|spring| {
+            let rule = spring.hysteresis.rule();
+            matches!(rule, HysteresisRule::Stop { clearance, .. } if clearance == 0.0)
+        });
+        equations.yielding_places() - elastic.count()
     }
 
     /// Whether nothing in it has a corner, so that its curve is a straight line.
@@ -473,6 +492,7 @@ impl<'a, E: StepEquations> Push<'a, E> {
                 Stage::Yielded if self.stages[spring] < stage => match self.falls(spring) {
                     true => PushEventKind::Fails,
                     false if self.stops(spring) => PushEventKind::Closes,
+                    false if self.buckles(spring) => PushEventKind::Buckles,
                     false => PushEventKind::Yields,
                 },
                 Stage::Cracked if self.stages[spring] < stage => PushEventKind::Cracks,
@@ -483,6 +503,14 @@ impl<'a, E: StepEquations> Push<'a, E> {
             events.push(PushEvent { spring, kind });
         }
         events
+    }
+
+    /// Whether a spring is a brace that has reached its buckling force.
+    fn buckles(&self, spring: usize) -> bool {
+        let (law, memory) = (&self.springs[spring], &self.walk.memories()[spring]);
+        let buckling = law.backbone().side(Side::Negative).yielding.deformation;
+        matches!(law.rule(), HysteresisRule::Buckling(_))
+            && memory.greatest(Side::Negative) >= buckling
     }
 
     /// Whether a spring loses its strength.
@@ -545,9 +573,11 @@ impl<'a, E: StepEquations> Push<'a, E> {
                 Stage::Uncracked
             }
         });
-        if hysteresis
-            .next_corner(&HysteresisMemory::default(), Side::Positive)
-            .is_infinite()
+        // Struts have a corner in compression alone.
+        let corner = |side| hysteresis.next_corner(&HysteresisMemory::default(), side);
+        if Side::BOTH
+            .into_iter()
+            .all(|side| corner(side).is_infinite())
         {
             return Stage::Uncracked;
         }

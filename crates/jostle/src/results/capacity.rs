@@ -6,9 +6,10 @@ use super::summary::{
     AcceptanceSummary, AxialFailureSummary, CapacitySummary, ExceededSummary, ImpactPlace,
     JointRatio, JointSummary, LevelSummary, MemberSummary, RatioPlace, RatioSummary,
 };
-use crate::history::{RatioPeak, SectionRatio};
+use crate::history::{Impact, RatioPeak, SectionRatio};
+use crate::interface::Contact;
 use crate::model::{RotationMeasure, RuleCapacity};
-use crate::structure::{MemberPlace, SectionAt};
+use crate::structure::{MemberPlace, MemberSections, SectionAt};
 use crate::system::{MemberRating, RatedPart};
 
 /// The rating of a member, and its entries among the ratios of the run: section by section, each by every rule.
@@ -53,6 +54,7 @@ pub(super) fn joints_of(building: usize, run: &Run) -> Vec<JointSummary> {
                 ("core", joint.section.height),
                 &entry.shear,
                 entry.shear.exceeded_at,
+                None,
                 run,
             ),
         });
@@ -86,6 +88,7 @@ fn place_of(
     (at, height): (&'static str, f64),
     peak: &RatioPeak,
     exceeded: Option<f64>,
+    member: Option<&MemberSections>,
     run: &Run,
 ) -> RatioPlace {
     let [demand, across] = peak.demand;
@@ -103,7 +106,7 @@ fn place_of(
         },
         compression_n: peak.compression,
         exceeded_s: exceeded,
-        impact: impact_at(building, peak.at, run),
+        impact: impact_at(building, member, peak.at, run),
     }
 }
 
@@ -130,7 +133,7 @@ pub(super) fn ratios_of(building: usize, member: usize, run: &Run) -> Vec<RatioS
             let section = sections.sections[section];
             let at = section_name(sections.place, section.at);
             let place = (at, section.height);
-            let place = place_of(building, rule, place, peak, exceeded_s, run);
+            let place = place_of(building, rule, place, peak, exceeded_s, Some(sections), run);
             Some((peak.ratio, place))
         };
         let shear = rule
@@ -225,19 +228,44 @@ pub(super) fn acceptance(building: usize, member: usize, run: &Run) -> Vec<Accep
     against.collect()
 }
 
-/// The strongest impact on a building in progress at an instant.
-pub(super) fn impact_at(building: usize, time: f64, run: &Run) -> Option<ImpactPlace> {
+/// The strongest impact on a building in progress at an instant: of those that strike a member between its ends, if one does.
+pub(super) fn impact_at(
+    building: usize,
+    member: Option<&MemberSections>,
+    time: f64,
+    run: &Run,
+) -> Option<ImpactPlace> {
     let impacts = run.outcome.impacts.iter().filter(|impact| {
         let buildings = run.system.contacts[impact.contact].ports.buildings();
         buildings.contains(&Some(building)) && (impact.start..=impact.end).contains(&time)
     });
-    let impact = impacts.max_by(|a, b| a.peak_force.total_cmp(&b.peak_force))?;
+    let strikes = |impact: &Impact| {
+        let contact = &run.system.contacts[impact.contact];
+        member.is_some_and(|member| is_struck(building, member, contact, run))
+    };
+    let impact = impacts.max_by(|a, b| {
+        let by_force = a.peak_force.total_cmp(&b.peak_force);
+        strikes(a).cmp(&strikes(b)).then(by_force)
+    })?;
     let contact = &run.system.contacts[impact.contact];
     Some(ImpactPlace {
+        on_member: member.map(|_| strikes(impact)),
         between: names(run.model.gaps[contact.gap].between, run.system),
         floors: run.system.floors_of(&contact.ports),
         height_m: contact.height,
         start_s: impact.start,
+    })
+}
+
+/// Whether a contact lies on a member between its ends.
+fn is_struck(building: usize, member: &MemberSections, contact: &Contact, run: &Run) -> bool {
+    let offset = run.system.buildings[building].offset;
+    let sections = member.sections.iter();
+    let between = sections.filter(|section| section.at == SectionAt::Below);
+    let mut dofs = between.flat_map(|section| section.dofs).flatten();
+    dofs.any(|dof| {
+        let mut ports = contact.ports.0.iter().flatten();
+        ports.any(|port| port.building == building && port.is_at(offset + dof))
     })
 }
 
@@ -306,7 +334,7 @@ fn first_joint(joints: &[JointSummary], building: usize, run: &Run) -> Option<Ex
         at: ratio.shear_at.at,
         at_s,
         ratio: ratio.shear,
-        impact: impact_at(building, at_s, run),
+        impact: impact_at(building, None, at_s, run),
     })
 }
 
@@ -331,7 +359,7 @@ fn first_of(building: usize, run: &Run) -> Option<ExceededSummary> {
                         at: section_name(member.place, section.at),
                         at_s: time,
                         ratio: peak.ratio,
-                        impact: impact_at(building, time, run),
+                        impact: impact_at(building, Some(member), time, run),
                     };
                     first = Some((time, found));
                 }

@@ -48,7 +48,7 @@ impl FloorInPlan {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement across the row", |f| f.displacement_across_max_m).in_study(),
         Quantity::<Self>::real("displacement_across_max_at_s", Unit::S, "time of this peak", |f| f.displacement_across_max_at_s),
-        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "most negative displacement across the row, ≤ 0", |f| f.displacement_across_min_m).in_study(),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "largest displacement towards −y, ≤ 0", |f| f.displacement_across_min_m).in_study(),
         Quantity::<Self>::real("displacement_across_min_at_s", Unit::S, "time of this peak", |f| f.displacement_across_min_at_s),
         Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, counter-clockwise seen from above", |f| f.rotation_max_rad).in_study(),
         Quantity::<Self>::real("rotation_max_at_s", Unit::S, "time of this peak", |f| f.rotation_max_at_s),

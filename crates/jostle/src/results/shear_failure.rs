@@ -45,12 +45,12 @@ pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureS
         let Some([failure, _]) = rule.failure_corners(memory) else {
             continue;
         };
+        // Known where the forces of members are followed.
+        let mut followed = system_building.members.members.iter();
+        let frame_index = frame.map(|frame| frame - 1);
+        let sections = followed.find(|own| own.place == member && own.frame == frame_index);
         list.push(ShearFailure {
-            column: name_of(
-                system_building,
-                frame.map(|frame| frame - 1),
-                &member.to_string(),
-            ),
+            column: name_of(system_building, frame_index, &member.to_string()),
             along: axis.map(PlanAxis::name),
             at: match end {
                 MemberEnd::First => "foot",
@@ -65,7 +65,7 @@ pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureS
             strength_left: rule.strength_left(memory) / failure.force,
             dissipated_j: spring.dissipated_j,
             impact: failing_event(global, run)
-                .and_then(|event| impact_at(building, event.time, run)),
+                .and_then(|event| impact_at(building, sections, event.time, run)),
         });
     }
     sort_by(&mut list, |a, b| a.failed_s.total_cmp(&b.failed_s));

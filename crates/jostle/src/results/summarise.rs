@@ -742,7 +742,8 @@ fn notes(run: &Run) -> Vec<String> {
             "the restitution law changes velocities instantly: its impacts have an impulse, but no force or duration; forces are those of sustained contact".to_owned(),
         );
     }
-    if run.plan.solver != Solver::Modal && run.system.frictions().next().is_some() {
+    let struck = !run.outcome.impacts.is_empty();
+    if struck && run.plan.solver != Solver::Modal && run.system.frictions().next().is_some() {
         notes.push(
             "direct steps have no error estimate for single impacts: times and speeds of light impacts may have errors above the tolerance".to_owned(),
         );

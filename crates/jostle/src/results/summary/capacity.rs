@@ -78,6 +78,8 @@ pub struct ImpactPlace {
     pub height_m: f64,
     /// Instant of first contact \[s\].
     pub start_s: f64,
+    /// Whether it strikes the member itself between its ends; `null` where no member is meant, or its forces are not followed.
+    pub on_member: Option<bool>,
 }
 
 /// Greatest rotation of the ends of a member against the limits of a rule.

@@ -155,7 +155,7 @@ impl IsolationInPlan {
         Quantity::<Self>::whole("stroke_bearing", "number of the bearing with this stroke, from 1", |i| i.stroke_bearing),
         Quantity::<Self>::real("residual_stroke_m", Unit::M, "greatest displacement of a bearing at the end, in any direction", |i| i.residual_stroke_m),
         Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement of the mat across the row", |i| i.displacement_across_max_m).in_study(),
-        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "most negative displacement of the mat across the row, ≤ 0", |i| i.displacement_across_min_m).in_study(),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "largest displacement of the mat towards −y, ≤ 0", |i| i.displacement_across_min_m).in_study(),
         Quantity::<Self>::real("residual_across_m", Unit::M, "displacement of the mat across the row at the end", |i| i.residual_across_m).in_study(),
         Quantity::<Self>::real("force_across_peak_n", Unit::N, "peak force of bearings and dashpots across, without stops", |i| i.force_across_peak_n).in_study(),
     ];

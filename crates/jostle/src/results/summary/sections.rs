@@ -110,9 +110,9 @@ pub struct FibreAcrossSummary {
 impl FibreAcrossSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("moment_across_max_n_m", Unit::NM, "greatest moment in the plane across, positive with tension on the side further across", |s| s.moment_across_max_n_m),
+        Quantity::<Self>::real("moment_across_max_n_m", Unit::NM, "greatest moment in the plane across, positive with tension on the face towards greater y", |s| s.moment_across_max_n_m),
         Quantity::<Self>::real("moment_across_min_n_m", Unit::NM, "most negative moment in the plane across", |s| s.moment_across_min_n_m),
-        Quantity::<Self>::real("rotation_across_max_rad", Unit::RAD, "greatest rotation in the plane across, positive with tension on the side further across", |s| s.rotation_across_max_rad),
+        Quantity::<Self>::real("rotation_across_max_rad", Unit::RAD, "greatest rotation in the plane across, positive with tension on the face towards greater y", |s| s.rotation_across_max_rad),
         Quantity::<Self>::real("rotation_across_min_rad", Unit::RAD, "most negative rotation in the plane across", |s| s.rotation_across_min_rad),
     ];
 }

@@ -128,19 +128,24 @@ struct Seen {
     several: usize,
     /// Only impacts of other buildings.
     elsewhere: usize,
+    /// One on the member itself.
+    on_it: usize,
+    /// None on the member, but others on its building.
+    beside: usize,
 }
 
 impl Seen {
-    /// The impact told is the strongest of those in which the building is at the instant.
+    /// The impact told is the strongest of those in which the building is at the instant: on the member itself, where one is.
     fn check(
         &mut self,
         told: Option<&ImpactPlace>,
+        member: &MemberSummary,
         index: usize,
         time: f64,
         (system, outcome): (&System, &Outcome),
     ) {
         let (mut count, mut others) = (0, 0);
-        let mut strongest: Option<(f64, Told)> = None;
+        let mut strongest: Option<((bool, f64), Told)> = None;
         for impact in &outcome.impacts {
             let contact = &system.contacts[impact.contact];
             let sides = contact
@@ -155,12 +160,18 @@ impl Seen {
                 continue;
             }
             count += 1;
-            let known = strongest.as_ref().map_or(0.0, |(force, _)| *force);
-            if impact.peak_force > known {
+            let mut struck = member.struck.iter();
+            let on_it = struck.any(|struck| (struck.height_m - contact.height).abs() < 1e-9);
+            let rank = (on_it, impact.peak_force);
+            if strongest.as_ref().is_none_or(|(known, _)| rank > *known) {
                 let names = sides.map(|side| system.buildings[side].name.clone());
-                strongest = Some((impact.peak_force, (impact.start, contact.height, names)));
+                strongest = Some((rank, (impact.start, contact.height, names)));
             }
         }
+        let on_it = strongest.as_ref().map(|((on_it, _), _)| *on_it);
+        assert_eq!(told.and_then(|told| told.on_member), on_it, "at {time} s");
+        self.on_it += usize::from(on_it == Some(true));
+        self.beside += usize::from(on_it == Some(false));
         self.own += usize::from(count > 0);
         self.several += usize::from(count > 1);
         self.elsewhere += usize::from(count == 0 && others > 0);
@@ -182,7 +193,13 @@ fn check_place(
     assert_eq!(place.compression_n, carried, "{name}");
     let due = height(name, place.at);
     assert!((place.height_m - due).abs() < 1e-9, "{name}: {}", place.at);
-    seen.check(place.impact.as_ref(), index, place.at_s, (system, outcome));
+    seen.check(
+        place.impact.as_ref(),
+        member,
+        index,
+        place.at_s,
+        (system, outcome),
+    );
 }
 
 fn check(model: &Model) -> Seen {
@@ -287,7 +304,16 @@ fn check(model: &Model) -> Seen {
         let known = (first.at_s, first.member.clone(), first.kind);
         assert!(first.at_s == at && firsts.contains(&known), "{known:?}");
         for (place, at) in [(first, first.at_s), (&capacity.worst, capacity.worst.at_s)] {
-            seen.check(place.impact.as_ref(), index, at, (&system, &outcome));
+            let mut members = building.members.iter();
+            let member = members.find(|member| member.name == place.member);
+            let member = member.expect("a member of the building");
+            seen.check(
+                place.impact.as_ref(),
+                member,
+                index,
+                at,
+                (&system, &outcome),
+            );
         }
         // Forces of the worst instant are those recorded then.
         let instant = &outcome.worst_instants[index];
