@@ -1,15 +1,16 @@
 //! Buildings in one plane: nodes, members, hinges and storeys.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use jostle::ProportionalDamping;
-use jostle::hysteresis::Hysteresis;
+use jostle::hysteresis::{Hysteresis, HysteresisRule};
 use jostle::structure::{Discretization, Element, Node, Part, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
-use super::foundation::Turning;
+use super::foundation::{GROUND, Turning};
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
-use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
+use super::ties::{COMPONENTS, ROTATION, Ties, is_held, is_vertical, stiffnesses};
 
 /// Stiffness of what holds an end on its rigid arm, in units of the stiffest member in bending \[–\].
 const STIFF: f64 = 1e5;
@@ -69,7 +70,7 @@ impl Script<'_> {
         let equations = &building.equations;
         let foundation = building.discretization.stick_model.foundation.as_ref();
         // Dashpots do it where it acts on motion relative to something that moves.
-        let alpha = match self.damps_by_dashpots(building) {
+        let alpha = match self.damps_by_dashpots(index, building) {
             true => 0.0,
             false => equations.alpha,
         };
@@ -85,8 +86,35 @@ impl Script<'_> {
             foundation.map_or_else(String::new, |own| format!(
                 ", \"foundation\": {}",
                 self.tag(index, own.node)
-            )),
+            )) + &self.footings(index, building),
         );
+    }
+
+    /// Of every part that can lift off, the node and the distances of its outermost contact springs to the right of it.
+    fn footings(&self, index: usize, building: &BuildingSystem) -> String {
+        let sticks = &building.discretization.stick_model;
+        let ground = sticks.yielding.iter();
+        let ground = ground.filter(|element| element.hysteresis.rule() == HysteresisRule::Ground);
+        let mut arms: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for element in ground {
+            let entries = element.row.entries();
+            let Some(node) = entries.first().map(|(place, _)| place / COMPONENTS) else {
+                continue;
+            };
+            let mut turned = entries
+                .iter()
+                .filter(|(place, _)| place % COMPONENTS == ROTATION);
+            let arm = turned.next().map_or(0.0, |(_, arm)| *arm);
+            let [least, most] = arms.entry(node).or_insert([arm; 2]);
+            (*least, *most) = (least.min(arm), most.max(arm));
+        }
+        if arms.is_empty() {
+            return String::new();
+        }
+        let rows = arms.into_iter().map(|(node, [least, most])| {
+            format!("({}, {least:?}, {most:?})", self.tag(index, node))
+        });
+        format!(", \"footings\": [{}]", rows.collect::<Vec<_>>().join(", "))
     }
 
     fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
@@ -257,6 +285,20 @@ impl Script<'_> {
             let of_fibres = sections.iter();
             let mut of_fibres = of_fibres.filter(|section| !section.is_surface());
             if of_fibres.any(|section| section.elements.contains(&number)) {
+                continue;
+            }
+            // Under a foundation it comes with this.
+            if element.hysteresis.rule() == HysteresisRule::Ground {
+                let ([(foot, _)], None) = (element.row.entries(), &stick_model.foundation) else {
+                    continue;
+                };
+                let Node { x, y, .. } = stick_model.nodes[foot / COMPONENTS];
+                let ground = self.ground_point(index, [x, y]);
+                let material = self.materials.ground(&element.hysteresis, false);
+                let last = self.tag(index, foot / COMPONENTS);
+                let damped = ProportionalDamping::None;
+                self.spring(ground, last, &[(2, material)], damped);
+                self.remark(GROUND);
                 continue;
             }
             let [(a, share), (b, _)] = *element.row.entries() else {

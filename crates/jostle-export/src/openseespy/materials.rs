@@ -127,6 +127,27 @@ impl Materials {
         }
     }
 
+    /// Ground in compression alone; where it yields, the gap that it leaves stays. Strain is the rise of what stands on it, or the
+    /// opposite if it is turned.
+    pub(super) fn ground(&mut self, hysteresis: &Hysteresis, turned: bool) -> usize {
+        let backbone = hysteresis.backbone();
+        let stiffness = backbone.initial();
+        let sinking = if turned { 1.0 } else { -1.0 };
+        let BackboneSide {
+            yielding,
+            post_yield,
+            ..
+        } = *backbone.side(Side::Negative);
+        // Without a gap it has its stiffness at rest as well.
+        let gap = sinking * 0.0;
+        if post_yield == stiffness {
+            return self.add("ElasticPPGap", vec![stiffness, sinking * NEVER, gap]);
+        }
+        let strength = sinking * yielding.force;
+        let arguments = vec![stiffness, strength, gap, post_yield / stiffness];
+        self.add("ElasticPPGap damage", arguments)
+    }
+
     /// `Concrete01`: strength and residual strength, with the compressions at which they are reached.
     fn concrete(&mut self, backbone: &Backbone, fall: ConcreteFall) -> usize {
         let Corner { deformation, force } = backbone.side(Side::Negative).yielding;
