@@ -405,7 +405,7 @@ impl Script<'_> {
     }
 
     /// A node without mass of a building in one plane.
-    fn plane_point(&mut self, index: usize, [x, y]: [f64; 2]) -> usize {
+    pub(super) fn plane_point(&mut self, index: usize, [x, y]: [f64; 2]) -> usize {
         let tag = self.tag(index, self.next_point[index]);
         self.next_point[index] += 1;
         let x = rounded(x + self.places[index]);

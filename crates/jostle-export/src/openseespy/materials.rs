@@ -170,8 +170,13 @@ impl Materials {
         self.add("Steel02", arguments)
     }
 
+    /// A spring that is elastic up to a strain, and then slides.
+    pub(super) fn slider(&mut self, stiffness: f64, slips: f64) -> usize {
+        self.add("ElasticPP", vec![stiffness, slips, -slips])
+    }
+
     /// An elastic spring that acts beyond a strain, of positive strains with sign 1 and of negative ones with −1.
-    fn gap(&mut self, stiffness: f64, at: f64, sign: f64) -> usize {
+    pub(super) fn gap(&mut self, stiffness: f64, at: f64, sign: f64) -> usize {
         let at = sign * at.max(NO_GAP);
         self.add("ElasticPPGap", vec![stiffness, sign * NEVER, at])
     }
@@ -208,10 +213,7 @@ impl Materials {
                 stick_stiffness,
             } => {
                 let slips = slip_force / stick_stiffness;
-                (
-                    self.add("ElasticPP", vec![*stick_stiffness, slips, -slips]),
-                    None,
-                )
+                (self.slider(*stick_stiffness, slips), None)
             }
             LinkLaw::Yielding(shortened) if turned => (self.yielding(shortened)?, None),
             LinkLaw::Yielding(shortened) => (self.yielding(&shortened.mirrored())?, None),

@@ -11,6 +11,7 @@ mod foundation;
 mod grounds;
 mod materials;
 mod motion;
+mod panels;
 mod plan;
 mod plan_base;
 mod plan_frames;
@@ -116,16 +117,16 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
             )
         });
-        if let Some(isolator) = several {
+        let in_plan = matches!(building.structure, Structure::Tiers(_));
+        if let Some(isolator) = several.filter(|_| in_plan) {
             refuse(
                 format!("building[{index}].isolation.kind"),
                 format!(
-                    "\"{}\" is not exported yet; take \"friction-pendulum\" with one surface to compare",
+                    "\"{}\" under a building with a plan has rims that are rings, which OpenSees' springs are not; take \"friction-pendulum\" with one surface, or a building in one plane, to compare",
                     isolator.name()
                 ),
             );
         }
-        let in_plan = matches!(building.structure, Structure::Tiers(_));
         let stop = building
             .base
             .isolation
@@ -173,13 +174,6 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             refuse(
                 format!("building[{index}].infill"),
                 "has compression-only struts with a hinge, which OpenSees' Hysteretic cannot do; leave out hinge to compare with elastic struts".into(),
-            );
-        }
-        let falls = |diagonal: &jostle::Diagonal| diagonal.across.is_some_and(|panel| panel.falls);
-        if diagonals.iter().copied().any(falls) {
-            refuse(
-                format!("building[{index}].infill"),
-                "falls out by out_of_plane.remove, which is not exported yet; leave remove out to compare panels that stay".into(),
             );
         }
         // In one plane arms are exported, but not beside the levers of a foundation.

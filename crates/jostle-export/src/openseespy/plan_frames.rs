@@ -11,6 +11,7 @@ use jostle::system::BuildingSystem;
 use jostle::{PlanFrame, ProportionalDamping, Tiers};
 
 use super::fibres::FibreEnd;
+use super::panels::Panels;
 use super::plan_base::DampedMass;
 use super::script::{Script, python_damping, rounded};
 use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
@@ -104,12 +105,16 @@ impl Script<'_> {
                 self.add_upright_spring(ends, frame.direction, along, damped);
             }
         }
+        let mut panels = Panels::default();
         for diagonal in &discretization.diagonals {
             if diagonal.frame.is_some() {
                 let ends = diagonal.ends.map(|node| self.tag(index, node));
+                let first = self.next_element;
                 self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+                panels.add(diagonal, first..self.next_element);
             }
         }
+        self.add_panels(index, building, panels);
         Ok(())
     }
 

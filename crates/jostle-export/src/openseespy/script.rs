@@ -18,7 +18,7 @@ pub(super) struct Script<'a> {
     pub(super) places: Vec<f64>,
     /// Numbers from which the nodes of a building count.
     block: usize,
-    next_element: usize,
+    pub(super) next_element: usize,
     /// Lists of fibres, in the order of their numbers.
     pub(super) fibre_lists: Vec<Arc<[Fibre]>>,
     pub(super) buildings: String,
@@ -58,6 +58,8 @@ pub(super) struct Script<'a> {
     pub(super) upright_springs: String,
     /// Heights of floors in plan.
     pub(super) levels: String,
+    /// Panels that fall.
+    pub(super) falling: String,
     /// Directions of links in plan.
     pub(super) directions: String,
     /// Bases in plan that rock, what leans with them, and points of them at a height.
@@ -104,8 +106,8 @@ impl<'a> Script<'a> {
                         2 * (nodes + export.system.links.len() + 2 * export.system.buildings.len())
                             + 2
                     }
-                    // The ground.
-                    None => 1,
+                    // The ground, and stages of a bearing.
+                    None => 4,
                 };
                 nodes + points
             });
@@ -149,6 +151,7 @@ impl<'a> Script<'a> {
             upright: String::new(),
             upright_springs: String::new(),
             levels: String::new(),
+            falling: String::new(),
             directions: String::new(),
             rocking: String::new(),
             tilted: String::new(),

@@ -11,6 +11,7 @@ use jostle::{
 };
 
 use super::fibres::FibreEnd;
+use super::panels::Panels;
 use super::plan_base::DampedMass;
 use super::script::{Script, python_damping, rounded};
 
@@ -143,7 +144,12 @@ impl Script<'_> {
             }
         }
         self.add_carried(building, frame, &tags);
+        let mut panels = Panels::default();
+        let of_frame = building.discretization.diagonals.iter();
+        let mut of_frame = of_frame.filter(|diagonal| diagonal.frame.is_none());
         for diagonal in &frame.diagonals {
+            let placed = of_frame.next();
+            let before = self.next_element;
             let Some(crossings) = diagonal.place.crossings() else {
                 continue;
             };
@@ -157,7 +163,11 @@ impl Script<'_> {
                 diagonal.stiffness,
                 diagonal.hysteresis.as_ref(),
             )?;
+            if let Some(placed) = placed {
+                panels.add(placed, before..self.next_element);
+            }
         }
+        self.add_panels(index, building, panels);
         Ok(())
     }
 

@@ -200,6 +200,12 @@ impl Script<'_> {
         )?;
         table(
             out,
+            "FALLING",
+            "panel that falls: acceleration at which it does [m/s2], number of its building, floors below and above it (None is the ground), unit normal, elements of its struts",
+            &self.falling,
+        )?;
+        table(
+            out,
             "DIRECTIONS",
             "element of a link in plan, unit vector from its first end to its second",
             &self.directions,

@@ -488,3 +488,66 @@ fn a_ring_stop_and_friction_that_rises_are_refused_by_field() {
     assert_eq!(feet.count(), 6);
     assert!(joints.iter().all(|row| row[4] != "None"));
 }
+
+/// Links between points of floors act along the line between them, and a wall that gives way moves along its normal.
+#[test]
+fn links_and_walls_of_a_site_have_directions() {
+    const MODEL: &str = include_str!("../../../jostle-validation/data/opensees/plan_links.toml");
+    let text = export(&model(MODEL)).expect("it can be exported").text;
+    let nodes = table(&text, "NODES");
+    let place = |tag: &str| {
+        let node = nodes.iter().find(|row| row[0] == tag).expect("a node");
+        [1, 2].map(|axis| number(&node[axis]))
+    };
+    let links = table(&text, "LINKS");
+    let directions = table(&text, "DIRECTIONS");
+    // The one within a building joins two pairs of floors.
+    assert_eq!([links.len(), directions.len()], [7, 7]);
+    for (link, direction) in links.iter().zip(&directions) {
+        assert_eq!(link[0], direction[0]);
+        let [a, b] = [place(&link[1]), place(&link[2])];
+        let [x, y] = [1, 2].map(|at| number(&direction[at]));
+        let length = (b[0] - a[0]) * x + (b[1] - a[1]) * y;
+        assert!((b[0] - a[0] - length * x).abs() + (b[1] - a[1] - length * y).abs() < 1e-9);
+        assert!(length > 1.0, "{link:?}");
+    }
+    let springs = table(&text, "UPRIGHT_SPRINGS");
+    let of_wall: Vec<[&str; 3]> = springs
+        .iter()
+        .map(|row| [3, 6, 7].map(|at| &row[at][..]))
+        .collect();
+    assert_eq!(
+        of_wall,
+        [
+            ["1", "-1.0", "0.0"],
+            ["2", "-1.0", "0.0"],
+            ["6", "-1.0", "0.0"]
+        ]
+    );
+    let materials = table(&text, "MATERIALS");
+    let along = materials
+        .iter()
+        .find(|row| row[1] == springs[0][4])
+        .expect("a material");
+    assert_eq!([number(&along[2]), number(&along[3])], [300e6, 900e3]);
+}
+
+/// Panels that fall: those of the lowest storey in plan look at the floor above alone.
+#[test]
+fn panels_fall_by_the_accelerations_of_their_floors() {
+    const MODEL: &str = include_str!("../../../jostle-validation/data/opensees/plan_falling.toml");
+    let text = export(&model(MODEL)).expect("it can be exported").text;
+    let panels = table(&text, "FALLING");
+    assert_eq!(panels.len(), 2 * 2 + 2 * 2);
+    for row in &panels {
+        // 1.2 kPa over 1400 kg/m3 times 0.2 m.
+        assert!((number(&row[0]) - 1200.0 / 280.0).abs() < 1e-12, "{row:?}");
+    }
+    let struts = table(&text, "DIAGONALS");
+    assert_eq!(struts.len(), 2 * panels.len());
+    let lowest = &text[text.find("\nFALLING = [").expect("the table")..];
+    let lowest = lowest.lines().nth(2).expect("a row");
+    let part = lowest.split("), (").collect::<Vec<_>>();
+    assert_eq!(part[1], "-0.0, 1.0", "{lowest}");
+    assert!(part[0].ends_with("0, (1002,"), "{lowest}");
+}

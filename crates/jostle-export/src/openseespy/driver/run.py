@@ -81,7 +81,7 @@ class Run:
     """Steps taken, and how."""
 
     def __init__(self, watch, grounds):
-        self.watch, self.grounds = watch, grounds
+        self.watch, self.grounds, self.panels = watch, grounds, Panels()
         self.steps = self.short_steps = self.iterations = self.failures = 0
         self.way = None
 
@@ -101,7 +101,9 @@ class Run:
         self.iterations += 1 if self.way == "linear" else ops.testIter()
         if status != 0:
             self.failures += 1
-            return self.rescue(step)
+            if not self.rescue(step):
+                return False
+        self.watch.changed |= self.panels.drop()
         return True
 
     def renew(self, algorithm):
@@ -399,6 +401,7 @@ def analyse(args):
         "contacts": contacts,
         **({"faces": faces, "corners_that_left_edges": watch.left_edge} if IN_PLAN else {}),
         "links": links,
+        **({"fallen_s": [run.panels.fallen.get(number) for number in range(len(FALLING))]} if FALLING else {}),
         "impact_count": sum(watch.impacts),
         "peak_force_n": max((contact["peak_force_n"] for contact in contacts), default=0.0),
         "first_impact_s": min(firsts, default=None),
