@@ -14,7 +14,7 @@ use super::script::{Script, comment, python_bool, python_damping, rounded, text}
 use super::ties::{COMPONENTS, ROTATION, Ties, is_held, is_vertical, stiffnesses};
 
 /// Elastic stiffness of the stages of a bearing together, in units of that of the bearing \[–\].
-const RIGID: f64 = 500.0;
+const RIGID: f64 = 1e4;
 /// Stiffness of what holds an end on its rigid arm, in units of the stiffest member in bending \[–\].
 const STIFF: f64 = 1e5;
 
@@ -454,7 +454,7 @@ impl Script<'_> {
             if travel.is_finite() {
                 let rim = travel + (friction + stiffness * travel) / own;
                 parts.extend([1.0, -1.0].map(|sign| self.materials.gap(rigid, rim, sign)));
-                self.remark("At the rims of sliding surfaces the springs of a bearing unload by up to 1/1000 of its elastic deformation less than in jostle.");
+                self.remark("At the rims of sliding surfaces the springs of a bearing unload by up to 1/20000 of its elastic deformation less than in jostle.");
             }
             let parts: Vec<(usize, usize)> = parts.into_iter().map(|part| (1, part)).collect();
             self.spring(below, above, &parts, ProportionalDamping::None);

@@ -53,14 +53,14 @@ impl Script<'_> {
         if tiers.matrices.is_some() {
             return refuse(
                 ".matrices",
-                "of floors in plan are not exported to OpenSees yet; write --to matrices, or export the model from which they come",
+                "of floors in plan couple displacements and rotations of any two floors, between which OpenSees has no springs; write --to matrices, or export the model from which they come",
             );
         }
         let frame = building.discretization.jointed_frame.as_deref();
         if frame.is_some_and(|frame| !frame.points.is_empty()) {
             return refuse(
                 "",
-                "has columns that a neighbour can hit between floors, or that struts meet there; such points of space frames are not exported to OpenSees yet: list pairs of floors at equal height, and leave offset and struts out",
+                "has columns that a neighbour can hit between floors, or that struts meet there; the script writes every column of a space frame as one element between two joints: list pairs of floors at equal height, and leave offset and struts out",
             );
         }
         let title = format!("    # {}\n", comment(&building.name));
@@ -318,7 +318,7 @@ impl Script<'_> {
             if contact.friction.is_some() {
                 refuse(
                     "friction",
-                    "is not exported yet; leave it out to compare contacts without friction",
+                    "is not exported: the contact materials of OpenSees act along the normal alone; leave it out to compare contacts without friction",
                 );
             }
             let (material, remark) = match self.materials.contact(contact) {

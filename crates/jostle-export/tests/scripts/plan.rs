@@ -409,7 +409,7 @@ fn hinges_of_space_frames_stand_between_joints_and_ends() {
 #[test]
 fn friction_in_plan_is_refused_by_field() {
     let text = CORNERS.replace("law = \"linear\"", "law = \"linear\"\nfriction = 0.3");
-    let faults = export(&model(&text)).expect_err("not yet");
+    let faults = export(&model(&text)).expect_err("refused");
     assert_eq!(faults.len(), 1, "{faults:?}");
     assert_eq!(faults[0].path, "gap[0].friction");
 }
