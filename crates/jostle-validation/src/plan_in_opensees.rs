@@ -67,7 +67,9 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
     let (system, outcome) = run_model(&input, None, settings, duration);
     let tolerance = TOLERANCE + error;
     let mut rows = Vec::new();
-    for (index, stored) in list(expected, "/buildings").iter().enumerate() {
+    // Walls that give way come after the buildings; jostle counts their motion along their normals.
+    let buildings = list(expected, "/buildings").iter().enumerate();
+    for (index, stored) in buildings.take(input.model.buildings.len()) {
         let name = &system.buildings[index].name;
         let own = fibre_ends::rows(&source, (&system, &outcome), index, stored, OF_FIBRES);
         rows.extend(own);
