@@ -12,8 +12,20 @@ FREE = 5e-4
 FREE_IN_PLAN = 1e-4
 # Half of that where the force of a blow moves by more than 3e-4.
 HALVED = {"continuous", "damping_tangent", "fibres", "grounds"}
-# So many times as long for models of many equations.
-LONGER = {"plan_frames": 2, "plan_space_frames": 4}
+# So many times as long for models of many equations; panels fall at ends of steps.
+LONGER = {
+    "falling": 0.2,
+    "pendulums": 0.2,
+    "plan_askew": 4,
+    "plan_base": 5,
+    "plan_failing": 2,
+    "plan_falling": 2,
+    "plan_frames": 2,
+    "plan_links": 2,
+    "plan_space_frames": 4,
+    "plan_uplift": 5,
+    "uplift": 2,
+}
 
 
 def stored(answer, free):

@@ -1,16 +1,20 @@
 //! Buildings in one plane: nodes, members, hinges and storeys.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use jostle::ProportionalDamping;
-use jostle::hysteresis::Hysteresis;
+use jostle::hysteresis::{Hysteresis, HysteresisRule, SlidingStage};
 use jostle::structure::{Discretization, Element, Node, Part, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
-use super::foundation::Turning;
+use super::foundation::{GROUND, Turning};
+use super::panels::Panels;
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
-use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
+use super::ties::{COMPONENTS, ROTATION, Ties, is_held, is_vertical, stiffnesses};
 
+/// Elastic stiffness of the stages of a bearing together, in units of that of the bearing \[–\].
+const RIGID: f64 = 1e4;
 /// Stiffness of what holds an end on its rigid arm, in units of the stiffest member in bending \[–\].
 const STIFF: f64 = 1e5;
 
@@ -69,7 +73,7 @@ impl Script<'_> {
         let equations = &building.equations;
         let foundation = building.discretization.stick_model.foundation.as_ref();
         // Dashpots do it where it acts on motion relative to something that moves.
-        let alpha = match self.damps_by_dashpots(building) {
+        let alpha = match self.damps_by_dashpots(index, building) {
             true => 0.0,
             false => equations.alpha,
         };
@@ -85,8 +89,35 @@ impl Script<'_> {
             foundation.map_or_else(String::new, |own| format!(
                 ", \"foundation\": {}",
                 self.tag(index, own.node)
-            )),
+            )) + &self.footings(index, building),
         );
+    }
+
+    /// Of every part that can lift off, the node and the distances of its outermost contact springs to the right of it.
+    fn footings(&self, index: usize, building: &BuildingSystem) -> String {
+        let sticks = &building.discretization.stick_model;
+        let ground = sticks.yielding.iter();
+        let ground = ground.filter(|element| element.hysteresis.rule() == HysteresisRule::Ground);
+        let mut arms: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for element in ground {
+            let entries = element.row.entries();
+            let Some(node) = entries.first().map(|(place, _)| place / COMPONENTS) else {
+                continue;
+            };
+            let mut turned = entries
+                .iter()
+                .filter(|(place, _)| place % COMPONENTS == ROTATION);
+            let arm = turned.next().map_or(0.0, |(_, arm)| *arm);
+            let [least, most] = arms.entry(node).or_insert([arm; 2]);
+            (*least, *most) = (least.min(arm), most.max(arm));
+        }
+        if arms.is_empty() {
+            return String::new();
+        }
+        let rows = arms.into_iter().map(|(node, [least, most])| {
+            format!("({}, {least:?}, {most:?})", self.tag(index, node))
+        });
+        format!(", \"footings\": [{}]", rows.collect::<Vec<_>>().join(", "))
     }
 
     fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
@@ -259,6 +290,20 @@ impl Script<'_> {
             if of_fibres.any(|section| section.elements.contains(&number)) {
                 continue;
             }
+            // Under a foundation it comes with this.
+            if element.hysteresis.rule() == HysteresisRule::Ground {
+                let ([(foot, _)], None) = (element.row.entries(), &stick_model.foundation) else {
+                    continue;
+                };
+                let Node { x, y, .. } = stick_model.nodes[foot / COMPONENTS];
+                let ground = self.ground_point(index, [x, y]);
+                let material = self.materials.ground(&element.hysteresis, false);
+                let last = self.tag(index, foot / COMPONENTS);
+                let damped = ProportionalDamping::None;
+                self.spring(ground, last, &[(2, material)], damped);
+                self.remark(GROUND);
+                continue;
+            }
             let [(a, share), (b, _)] = *element.row.entries() else {
                 continue;
             };
@@ -283,7 +328,7 @@ impl Script<'_> {
             if stick_model.foundation.is_some() && spring.lever.is_some_and(|lever| lever != 0.0) {
                 self.add_storey_on_foundation([first, last], spring)?;
             } else {
-                self.add_storey([first, last], spring)?;
+                self.add_storey(index, [first, last], spring)?;
             }
             if spring.softening != 0.0 {
                 self.lean(first, last, -spring.softening);
@@ -348,10 +393,14 @@ impl Script<'_> {
         index: usize,
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
+        let mut panels = Panels::default();
         for diagonal in &building.discretization.diagonals {
             let ends = diagonal.ends.map(|node| self.tag(index, node));
+            let first = self.next_element;
             self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+            panels.add(diagonal, first..self.next_element);
         }
+        self.add_panels(index, building, panels);
         Ok(())
     }
 
@@ -374,11 +423,64 @@ impl Script<'_> {
         Ok(())
     }
 
+    /// A bearing with several sliding surfaces: its stages one above the other, between nodes of their own. Of a stage with friction f, a
+    /// bowl k and an elastic spring R, parallel springs of R − k′ that yield at f/R and of k′ = kR/(k + R) have the force F = R (u − s)
+    /// with |F − ks| ≤ f; the elastic springs of all stages and one beside them make up that of the bearing.
+    fn add_pendulums(
+        &mut self,
+        index: usize,
+        [first, last]: [usize; 2],
+        elastic: f64,
+        stages: &[SlidingStage],
+    ) {
+        let stages = stages.iter().filter(|stage| **stage != SlidingStage::STILL);
+        let stages: Vec<&SlidingStage> = stages.collect();
+        let own = RIGID * stages.len() as f64 * elastic;
+        let mut below = first;
+        for SlidingStage {
+            friction,
+            stiffness,
+            travel,
+        } in stages
+        {
+            let above = self.plane_point(index, [0.0; 2]);
+            let _ = writeln!(self.supports, "    ({above}, 0, 1, 1),");
+            let bowl = stiffness * own / (stiffness + own);
+            let (slips, rigid) = (friction / own, own - bowl);
+            let mut parts = vec![
+                self.materials.slider(rigid, slips),
+                self.materials.elastic(bowl, 0.0),
+            ];
+            if travel.is_finite() {
+                let rim = travel + (friction + stiffness * travel) / own;
+                parts.extend([1.0, -1.0].map(|sign| self.materials.gap(rigid, rim, sign)));
+                self.remark("At the rims of sliding surfaces the springs of a bearing unload by up to 1/20000 of its elastic deformation less than in jostle.");
+            }
+            let parts: Vec<(usize, usize)> = parts.into_iter().map(|part| (1, part)).collect();
+            self.spring(below, above, &parts, ProportionalDamping::None);
+            below = above;
+        }
+        let rest = self.materials.elastic(elastic * RIGID / (RIGID - 1.0), 0.0);
+        self.spring(below, last, &[(1, rest)], ProportionalDamping::None);
+    }
+
     fn add_storey(
         &mut self,
+        index: usize,
         [first, last]: [usize; 2],
         spring: &Spring,
     ) -> Result<(), &'static str> {
+        if let Some(hysteresis) = &spring.hysteresis
+            && let HysteresisRule::Pendulums(stages) = hysteresis.rule()
+        {
+            let elastic = hysteresis.backbone().initial();
+            self.add_pendulums(index, [first, last], elastic, &stages);
+            if spring.dashpot != 0.0 {
+                let material = self.materials.elastic(0.0, spring.dashpot);
+                self.spring(first, last, &[(1, material)], ProportionalDamping::None);
+            }
+            return Ok(());
+        }
         let materials =
             self.spring_materials(spring.stiffness, spring.hysteresis.as_ref(), spring.dashpot)?;
         let directions: Vec<(usize, usize)> = materials

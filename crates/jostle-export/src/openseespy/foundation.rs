@@ -6,22 +6,24 @@
 
 use std::fmt::Write;
 
-use jostle::ProportionalDamping;
+use jostle::hysteresis::HysteresisRule;
 use jostle::interface::LinkElement;
 use jostle::structure::{Node, Spring, Support};
 use jostle::system::BuildingSystem;
+use jostle::{MassDamping, ProportionalDamping};
 
 use super::script::{Script, python_damping, rounded};
 use super::soil::{Matrix, SoilSpring, springs_of};
-use super::ties::Ties;
+use super::ties::{COMPONENTS, ROTATION, SAME_LINE, Ties};
 
 /// Stiffness of what holds the feet of columns on the foundation, in units of the rocking stiffness of the soil over the square of
 /// their distance from its middle \[–\].
 const STIFF: f64 = 1e7;
+/// What a script says about ground in compression alone.
+pub(super) const GROUND: &str = "Ground under what can lift off is OpenSees' ElasticPPGap without a gap: the same law, without a search \
+     for the instant at which it opens.";
 /// Length of levers of the soil \[m\].
 const LEVER: f64 = 1.0;
-/// Nodes closer than this lie on one line \[m\].
-const SAME_LINE: f64 = 1e-9;
 
 /// How much of the rotations of both ends acts on a lever.
 #[derive(Clone, Copy)]
@@ -90,12 +92,24 @@ impl Script<'_> {
         let nodes = &stick_model.nodes;
         let base = nodes[foundation.node];
         let base_tag = self.tag(index, foundation.node);
+        let lifts = !stick_model.bed.is_empty();
+        let rocking = match building.foundation.filter(|_| lifts) {
+            Some(place) => place.springs.rocking_stiffness,
+            None => foundation.stiffness[2],
+        };
+        let levers = foundation
+            .feet
+            .iter()
+            .map(|foot| (nodes[*foot].x - base.x).abs());
+        let reach = levers.fold(0.0, f64::max);
         for &foot in &foundation.feet {
             let lever = nodes[foot].x - base.x;
             if lever.abs() <= SAME_LINE {
                 continue;
             }
-            let stiffness = STIFF * foundation.stiffness[2] / (lever * lever);
+            // The middle of one that lifts off may stand close to its node.
+            let lever = if lifts { reach } else { lever };
+            let stiffness = STIFF * rocking / (lever * lever);
             let material = self.materials.elastic(stiffness, 0.0);
             let ends = [base_tag, self.tag(index, foot)];
             self.lever(ends, material, Turning::Both, ProportionalDamping::None);
@@ -104,8 +118,9 @@ impl Script<'_> {
                  displacements that are equal are tied.",
             );
         }
+        self.add_bed(index, building);
         let alpha = building.equations.alpha;
-        if alpha == 0.0 {
+        if alpha == 0.0 || !self.is_damped_on_its_foundation(index, building) {
             return;
         }
         let lever = |node: usize| stick_model.lever(node);
@@ -128,8 +143,11 @@ impl Script<'_> {
             // Floors of a shear building do not rise, and columns that keep their length rise with the foundation.
             if node.support == Support::Free && lever(number).is_none() {
                 if (node.x - base.x).abs() <= SAME_LINE {
-                    let ground = self.ground_point(index, [node.x, node.y]);
-                    self.spring(ground, tag, &[(2, material)], ProportionalDamping::None);
+                    let below = match lifts {
+                        true => base_tag,
+                        false => self.ground_point(index, [node.x, node.y]),
+                    };
+                    self.spring(below, tag, &[(2, material)], ProportionalDamping::None);
                 } else {
                     let beside = self.on_foundation(index, building, ties, [base.x, node.y]);
                     self.lever(
@@ -140,6 +158,76 @@ impl Script<'_> {
                     );
                 }
             }
+        }
+    }
+
+    /// Whether the damping of the masses of a building acts on its motion relative to its foundation.
+    pub(super) fn is_damped_on_its_foundation(
+        &self,
+        index: usize,
+        building: &BuildingSystem,
+    ) -> bool {
+        let of_model = self.export.model.buildings.get(index);
+        building.foundation.is_some()
+            && of_model.is_some_and(|building| building.mass_damping == MassDamping::Support)
+    }
+
+    /// Contact springs under a foundation that lifts off, and the dashpot beside them.
+    fn add_bed(&mut self, index: usize, building: &BuildingSystem) {
+        let stick_model = &building.discretization.stick_model;
+        let Some(foundation) = stick_model
+            .foundation
+            .as_ref()
+            .filter(|_| !stick_model.bed.is_empty())
+        else {
+            return;
+        };
+        for element in &stick_model.yielding {
+            if element.hysteresis.rule() != HysteresisRule::Ground {
+                continue;
+            }
+            let mut shares = element.row.entries().iter();
+            let turned =
+                shares.find(|(place, _)| *place == COMPONENTS * foundation.node + ROTATION);
+            let arm = turned.map_or(0.0, |(_, arm)| *arm);
+            let material = self.materials.ground(&element.hysteresis, arm > SAME_LINE);
+            self.hold_foundation(index, building, arm, material);
+        }
+        let dashpot = building
+            .foundation
+            .map_or(0.0, |place| place.springs.vertical_damping);
+        if dashpot > 0.0 {
+            let material = self.materials.elastic(0.0, dashpot);
+            self.hold_foundation(index, building, foundation.middle, material);
+        }
+        self.remark(GROUND);
+    }
+
+    /// A spring between the ground and a point of a foundation at a distance to the right of its node. Its strain is the rise of the
+    /// point, or the opposite to the right of the node.
+    fn hold_foundation(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        arm: f64,
+        material: usize,
+    ) {
+        let stick_model = &building.discretization.stick_model;
+        let Some(foundation) = &stick_model.foundation else {
+            return;
+        };
+        let base = stick_model.nodes[foundation.node];
+        let tag = self.tag(index, foundation.node);
+        let ground = self.ground_point(index, [base.x + arm, base.y]);
+        if arm.abs() <= SAME_LINE {
+            self.spring(ground, tag, &[(2, material)], ProportionalDamping::None);
+        } else {
+            self.lever(
+                [tag, ground],
+                material,
+                Turning::First,
+                ProportionalDamping::None,
+            );
         }
     }
 
@@ -210,7 +298,9 @@ impl Script<'_> {
                     // The node that turns below, that of the neighbour above it.
                     let beside = &system.buildings[founded[other]];
                     let shift = self.places[founded[at]] - self.places[founded[other]];
-                    let [x, y] = place(at, LEVER);
+                    let [level, other_level] = [at, other]
+                        .map(|number| system.buildings[founded[number]].discretization.elevation);
+                    let [x, y] = place(at, LEVER + level - other_level);
                     let above =
                         self.on_foundation(founded[other], beside, &ties(other), [x + shift, y]);
                     self.lever(
@@ -250,7 +340,12 @@ impl Script<'_> {
                 return self.tag(index, node);
             }
             let followed = [ties.followed_by(node, 0), ties.followed_by(base, 2)];
-            self.following(index, followed, [stick_model.nodes[base].x, heights[side]])
+            self.following(
+                index,
+                followed,
+                None,
+                [stick_model.nodes[base].x, heights[side]],
+            )
         });
         Some(TurningEnds {
             ends,
@@ -278,14 +373,24 @@ impl Script<'_> {
             return self.tag(index, foundation.node);
         }
         let followed = [0, 2].map(|component| ties.followed_by(foundation.node, component));
-        self.following(index, followed, at)
+        let rise = (!stick_model.bed.is_empty()).then(|| ties.followed_by(foundation.node, 1));
+        self.following(index, followed, rise, at)
     }
 
-    /// A node that moves along x with one node, turns with another, and does not rise.
-    fn following(&mut self, index: usize, followed: [usize; 2], at: [f64; 2]) -> usize {
+    /// A node that moves along x with one node and turns with another. It rises with a third, or not at all.
+    fn following(
+        &mut self,
+        index: usize,
+        followed: [usize; 2],
+        rise: Option<usize>,
+        at: [f64; 2],
+    ) -> usize {
         let tag = self.plane_point(index, at);
-        let _ = writeln!(self.supports, "    ({tag}, 0, 1, 0),");
-        for (node, component) in followed.into_iter().zip([1, 3]) {
+        if rise.is_none() {
+            let _ = writeln!(self.supports, "    ({tag}, 0, 1, 0),");
+        }
+        let risen = rise.map(|node| (node, 2));
+        for (node, component) in followed.into_iter().zip([1, 3]).chain(risen) {
             let followed = self.tag(index, node);
             let _ = writeln!(self.ties, "    ({followed}, {tag}, {component}),");
         }
@@ -300,10 +405,11 @@ impl Script<'_> {
     }
 
     /// A node without mass of a building in one plane.
-    fn plane_point(&mut self, index: usize, [x, y]: [f64; 2]) -> usize {
+    pub(super) fn plane_point(&mut self, index: usize, [x, y]: [f64; 2]) -> usize {
         let tag = self.tag(index, self.next_point[index]);
         self.next_point[index] += 1;
         let x = rounded(x + self.places[index]);
+        let y = y + self.export.system.buildings[index].discretization.elevation;
         let _ = writeln!(
             self.nodes,
             "    ({tag}, {x:?}, {:?}, 0.0, 0.0),",

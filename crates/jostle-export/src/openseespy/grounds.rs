@@ -20,8 +20,8 @@ impl Script<'_> {
     }
 
     /// Whether dashpots damp a building relative to what it stands on, in place of damping of its masses.
-    pub(super) fn damps_by_dashpots(&self, building: &BuildingSystem) -> bool {
-        building.foundation.is_some() || self.grounds_part()
+    pub(super) fn damps_by_dashpots(&self, index: usize, building: &BuildingSystem) -> bool {
+        self.is_damped_on_its_foundation(index, building) || self.grounds_part()
     }
 
     /// Dashpots α m to the ground of a building, which moves.
@@ -36,7 +36,7 @@ impl Script<'_> {
         self.springs.push_str("    # damping relative to grounds\n");
         for (index, building) in self.export.system.buildings.iter().enumerate() {
             let alpha = building.equations.alpha;
-            if alpha == 0.0 || building.foundation.is_some() {
+            if alpha == 0.0 || self.is_damped_on_its_foundation(index, building) {
                 continue;
             }
             let sticks = &building.discretization.stick_model;

@@ -127,6 +127,27 @@ impl Materials {
         }
     }
 
+    /// Ground in compression alone; where it yields, the gap that it leaves stays. Strain is the rise of what stands on it, or the
+    /// opposite if it is turned.
+    pub(super) fn ground(&mut self, hysteresis: &Hysteresis, turned: bool) -> usize {
+        let backbone = hysteresis.backbone();
+        let stiffness = backbone.initial();
+        let sinking = if turned { 1.0 } else { -1.0 };
+        let BackboneSide {
+            yielding,
+            post_yield,
+            ..
+        } = *backbone.side(Side::Negative);
+        // Without a gap it has its stiffness at rest as well.
+        let gap = sinking * 0.0;
+        if post_yield == stiffness {
+            return self.add("ElasticPPGap", vec![stiffness, sinking * NEVER, gap]);
+        }
+        let strength = sinking * yielding.force;
+        let arguments = vec![stiffness, strength, gap, post_yield / stiffness];
+        self.add("ElasticPPGap damage", arguments)
+    }
+
     /// `Concrete01`: strength and residual strength, with the compressions at which they are reached.
     fn concrete(&mut self, backbone: &Backbone, fall: ConcreteFall) -> usize {
         let Corner { deformation, force } = backbone.side(Side::Negative).yielding;
@@ -149,8 +170,13 @@ impl Materials {
         self.add("Steel02", arguments)
     }
 
+    /// A spring that is elastic up to a strain, and then slides.
+    pub(super) fn slider(&mut self, stiffness: f64, slips: f64) -> usize {
+        self.add("ElasticPP", vec![stiffness, slips, -slips])
+    }
+
     /// An elastic spring that acts beyond a strain, of positive strains with sign 1 and of negative ones with −1.
-    fn gap(&mut self, stiffness: f64, at: f64, sign: f64) -> usize {
+    pub(super) fn gap(&mut self, stiffness: f64, at: f64, sign: f64) -> usize {
         let at = sign * at.max(NO_GAP);
         self.add("ElasticPPGap", vec![stiffness, sign * NEVER, at])
     }
@@ -187,10 +213,7 @@ impl Materials {
                 stick_stiffness,
             } => {
                 let slips = slip_force / stick_stiffness;
-                (
-                    self.add("ElasticPP", vec![*stick_stiffness, slips, -slips]),
-                    None,
-                )
+                (self.slider(*stick_stiffness, slips), None)
             }
             LinkLaw::Yielding(shortened) if turned => (self.yielding(shortened)?, None),
             LinkLaw::Yielding(shortened) => (self.yielding(&shortened.mirrored())?, None),

@@ -11,7 +11,9 @@ mod foundation;
 mod grounds;
 mod materials;
 mod motion;
+mod panels;
 mod plan;
+mod plan_base;
 mod plan_frames;
 mod remarks;
 mod script;
@@ -22,7 +24,10 @@ mod ties;
 
 use jostle::hysteresis::HysteresisRule;
 use jostle::structure::FibreSection;
-use jostle::{Hinges, Isolation, Isolator, ModelFault};
+use jostle::{
+    Building, FrameHinges, Hinges, Isolation, Isolator, ModelFault, ShearSpring, SpaceFrame,
+    SpacePlace, Structure,
+};
 
 use crate::{Export, Exported};
 use script::Script;
@@ -52,6 +57,29 @@ pub fn export(export: &Export<'_>) -> Result<Exported, Vec<ModelFault>> {
     })
 }
 
+/// Whether the ductility of hinges lowers the shear strength of columns.
+fn is_weakened_by_ductility(building: &Building) -> bool {
+    let weakens = |column: &ShearSpring| !column.by_ductility.points().is_empty();
+    let in_frame = |hinges: &FrameHinges| {
+        !hinges.columns.is_empty() && hinges.shear.iter().flatten().any(weakens)
+    };
+    let of_plan = match &building.structure {
+        Structure::Tiers(tiers) => Some(tiers),
+        _ => None,
+    };
+    let in_space = of_plan.and_then(|tiers| tiers.space_frame.as_ref());
+    let yields = |frame: &SpaceFrame, place: &SpacePlace| {
+        let mut members = frame.members.iter();
+        members.any(|member| member.place == *place && member.may_yield())
+    };
+    matches!(&building.hinges, Some(Hinges::Frame(hinges)) if in_frame(hinges))
+        || of_plan.is_some_and(|tiers| tiers.frames.iter().any(|frame| in_frame(&frame.hinges)))
+        || in_space.is_some_and(|frame| {
+            let mut shear = frame.shear.iter();
+            shear.any(|((place, _), column)| weakens(column) && yields(frame, place))
+        })
+}
+
 /// Fields whose values OpenSees does not support, as far as the model alone shows.
 fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
     let mut faults = Vec::new();
@@ -64,26 +92,11 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 .into(),
         );
     }
-    if export.system.is_in_space() && !model.links.is_empty() {
-        refuse(
-            "link".into(),
-            "and dampers of buildings with a plan are not exported yet; leave them out to compare"
-                .into(),
-        );
-    }
     if export.motion.has_own_grounds() && export.system.is_in_space() {
         refuse(
             "motion".into(),
             "different motion under each building with a plan is not exported: their ties need the constraint handler Transformation, which does not let the script move supports; leave out arrival, position, apparent_velocity and [building.motion], or compare buildings in one plane".into(),
         );
-    }
-    for (index, wall) in model.walls.iter().enumerate() {
-        if export.system.is_in_space() && !wall.is_rigid() {
-            refuse(
-                format!("wall[{index}].stiffness"),
-                "of a wall on the site is not exported yet; leave it out to compare with a rigid wall".into(),
-            );
-        }
     }
     for (index, building) in model.buildings.iter().enumerate() {
         if let Some(Isolation {
@@ -104,26 +117,16 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
             )
         });
-        if let Some(isolator) = several {
+        let in_plan = matches!(building.structure, Structure::Tiers(_));
+        if let Some(isolator) = several.filter(|_| in_plan) {
             refuse(
                 format!("building[{index}].isolation.kind"),
                 format!(
-                    "\"{}\" is not exported yet; take \"friction-pendulum\" with one surface to compare",
+                    "\"{}\" under a building with a plan has rims that are rings, which OpenSees' springs are not; take \"friction-pendulum\" with one surface, or a building in one plane, to compare",
                     isolator.name()
                 ),
             );
         }
-        if building.base.lifts() {
-            let part = match building.base.uplift {
-                true => "base",
-                false => "foundation",
-            };
-            refuse(
-                format!("building[{index}].{part}"),
-                "that lifts off the ground is not exported yet; leave uplift out to compare with one that is held down".into(),
-            );
-        }
-        let in_plan = matches!(building.structure, jostle::Structure::Tiers(_));
         let stop = building
             .base
             .isolation
@@ -150,19 +153,13 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             );
         }
         let in_space = match &building.structure {
-            jostle::Structure::Tiers(tiers) => tiers.space_frame.as_ref(),
+            Structure::Tiers(tiers) => tiers.space_frame.as_ref(),
             _ => None,
         };
-        if in_space.is_some_and(|frame| !frame.shear.is_empty()) {
-            refuse(
-                format!("building[{index}].shear_failure"),
-                "of space frames is not exported yet; leave it out to compare columns that keep their shear strength".into(),
-            );
-        }
         let mut diagonals: Vec<&jostle::Diagonal> = Vec::new();
         match &building.structure {
-            jostle::Structure::Frame(frame) => diagonals.extend(&frame.diagonals),
-            jostle::Structure::Tiers(tiers) => {
+            Structure::Frame(frame) => diagonals.extend(&frame.diagonals),
+            Structure::Tiers(tiers) => {
                 diagonals.extend(in_space.iter().flat_map(|frame| &frame.diagonals));
                 let frames = tiers.frames.iter();
                 diagonals.extend(frames.flat_map(|plan_frame| &plan_frame.frame.diagonals));
@@ -179,16 +176,9 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "has compression-only struts with a hinge, which OpenSees' Hysteretic cannot do; leave out hinge to compare with elastic struts".into(),
             );
         }
-        let falls = |diagonal: &jostle::Diagonal| diagonal.across.is_some_and(|panel| panel.falls);
-        if diagonals.iter().copied().any(falls) {
-            refuse(
-                format!("building[{index}].infill"),
-                "falls out by out_of_plane.remove, which is not exported yet; leave remove out to compare panels that stay".into(),
-            );
-        }
         // In one plane arms are exported, but not beside the levers of a foundation.
         let (walls, ends) = match &building.structure {
-            jostle::Structure::Frame(frame) if building.base.foundation.is_some() => {
+            Structure::Frame(frame) if building.base.foundation.is_some() => {
                 (!frame.walls.is_empty(), !frame.rigid_zones.is_empty())
             }
             _ => (false, false),
@@ -212,12 +202,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "stand at faces of walls or at rigid_ends, on rigid arms that turn with joints, which are exported only in plane frames; leave rigid_ends out, and keep members that meet walls elastic, to compare".into(),
             );
         }
-        // Ductility is that of the hinges of columns.
-        if let Some(Hinges::Frame(hinges)) = &building.hinges
-            && !hinges.columns.is_empty()
-            && (hinges.shear.iter().flatten())
-                .any(|column| !column.by_ductility.points().is_empty())
-        {
+        if is_weakened_by_ductility(building) {
             refuse(
                 format!("building[{index}].shear_failure"),
                 "lowers the strength of columns with the ductility of their hinges, which OpenSees' LimitState cannot do; give strength and slope instead of the rule, or rule = \"aci318\" or \"gb50010\"".into(),

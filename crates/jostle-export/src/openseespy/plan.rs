@@ -13,15 +13,15 @@
 use std::fmt::Write;
 
 use jostle::interface::Port;
-use jostle::structure::{Mat, Node};
+use jostle::structure::{Influence, Mat, Node};
 use jostle::system::BuildingSystem;
-use jostle::{ModelFault, PlanPoint, ProportionalDamping, Structure, Tier, TierStorey};
+use jostle::{MassDamping, ModelFault, PlanPoint, ProportionalDamping, Structure, TierStorey};
 
-use super::plan_frames;
+use super::plan_base::HELD;
 use super::script::{Script, comment, python_bool, rounded, text};
 
 /// Directions of OpenSees: along x, across, rotation.
-const DIRECTIONS: [usize; 3] = [1, 2, 6];
+pub(super) const DIRECTIONS: [usize; 3] = [1, 2, 6];
 
 /// Mass of a floor, or those along x and across where they differ: columns between floors of a plane frame move by themselves along it.
 fn masses(floor: &Node) -> String {
@@ -50,29 +50,16 @@ impl Script<'_> {
         let Structure::Tiers(tiers) = &model_building.structure else {
             return refuse("", "has no floors in plan that can be exported");
         };
-        if let Some((key, problem)) = plan_frames::refusal(tiers, &building.discretization) {
-            return refuse(key, problem);
-        }
-        if model_building.base.isolation.is_none() && !model_building.base.is_fixed() {
-            let key = match model_building.base.foundation {
-                Some(_) => ".foundation",
-                None => ".base",
-            };
-            return refuse(
-                key,
-                "springs under a building with a plan are not exported to OpenSees yet; leave them out, or use isolation with linear bearings",
-            );
-        }
         if tiers.matrices.is_some() {
             return refuse(
                 ".matrices",
-                "of floors in plan are not exported to OpenSees yet; write --to matrices, or export the model from which they come",
+                "of floors in plan couple displacements and rotations of any two floors, between which OpenSees has no springs; write --to matrices, or export the model from which they come",
             );
         }
         if !building.discretization.points.is_empty() {
             return refuse(
                 "",
-                "has columns that a neighbour can hit between floors, or that struts meet there; such points of buildings with a plan are not exported to OpenSees yet: list pairs of floors at equal height, and leave offset and struts out",
+                "has columns that a neighbour can hit between floors, or that struts meet there; the script writes every column of a building with a plan as one element between two joints: list pairs of floors at equal height, and leave offset and struts out",
             );
         }
         let title = format!("    # {}\n", comment(&building.name));
@@ -90,6 +77,11 @@ impl Script<'_> {
             &mut self.rigid_ends,
             &mut self.upright,
             &mut self.upright_springs,
+            &mut self.rocking,
+            &mut self.tilted,
+            &mut self.tilted_storeys,
+            &mut self.riding,
+            &mut self.raised,
         ] {
             table.push_str(&title);
         }
@@ -100,8 +92,18 @@ impl Script<'_> {
             .isolation
             .zip(building.discretization.mat);
         let mat = isolated.map(|(isolation, _)| tiers.mat(isolation.mat_mass));
+        let plan_base = building.discretization.stick_model.plan_base;
         let foot = isolated.map(|(_, mat)| mat.node);
-        let moving = mat.iter().zip(&foot).chain(lumped.iter().zip(floors));
+        let foot = foot.or(plan_base.map(|base| base.footing));
+        self.damped.clear();
+        if let Some(base) = plan_base {
+            self.add_base_in_plan(index, building, base);
+        }
+        let foot_of_mat = mat.as_ref().and(foot);
+        let moving = mat
+            .iter()
+            .zip(&foot_of_mat)
+            .chain(lumped.iter().zip(floors));
         for (floor, node) in moving {
             let tag = self.tag(index, *node);
             let [x, y] = floor.tier.centre.map(rounded);
@@ -146,7 +148,7 @@ impl Script<'_> {
                 let last = self.point(index, Some(floors[storey]), spring.at);
                 let directions = [(DIRECTIONS[spring.axis.index()], material)];
                 let damped = model_building.yielding_damping.unwrap_or_default();
-                self.spring(first, last, &directions, damped);
+                self.storey_spring(building, [first, last], &directions, damped);
             }
             if model_building.gravity.p_delta {
                 let mut springs = tiers.softening(&lumped, storey);
@@ -184,26 +186,33 @@ impl Script<'_> {
         let mut alpha = building.equations.alpha;
         if let Some((_, on_mat)) = isolated {
             self.add_bearings(index, building, on_mat);
-            let floors = lumped.iter().zip(floors);
-            let masses = floors.map(|(floor, node)| (*node, &floor.tier));
-            self.damp_relative_to_mat(index, on_mat.node, std::mem::take(&mut alpha), masses);
+            let alpha = std::mem::take(&mut alpha);
+            self.damp_relative_to(index, building, on_mat.node, alpha);
+        } else if let Some(base) = plan_base
+            && building.foundation_in_plan.is_some()
+            && model_building.mass_damping == MassDamping::Support
+        {
+            let alpha = std::mem::take(&mut alpha);
+            self.damp_relative_to(index, building, base.footing, alpha);
         }
-        let tags: Vec<String> = foot
+        let bed = self.bed_in_plan(index, building);
+        let tags: Vec<String> = foot_of_mat
             .iter()
             .chain(floors)
             .map(|node| self.tag(index, *node).to_string())
             .collect();
         let _ = writeln!(
             self.buildings,
-            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}], \"has_mat\": {},\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": {}}},",
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}], \"has_mat\": {},\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": {}{}}},",
             text(&building.name),
-            tags[0],
+            self.tag(index, foot.unwrap_or(floors[0])),
             self.tag(index, self.next_point[index] - 1),
             tags.join(", "),
-            python_bool(foot.is_some()),
+            python_bool(foot_of_mat.is_some()),
             alpha,
             building.equations.beta,
             python_bool(model_building.gravity.preload),
+            bed,
         );
         Ok(())
     }
@@ -219,6 +228,8 @@ impl Script<'_> {
     ) {
         let floors = &building.discretization.floors;
         let foot = building.discretization.mat.map(|mat| mat.node);
+        let plan_base = building.discretization.stick_model.plan_base;
+        let foot = foot.or(plan_base.map(|base| base.footing));
         let lower = storey
             .checked_sub(1)
             .map_or(foot, |below| Some(floors[below]));
@@ -230,8 +241,11 @@ impl Script<'_> {
             .filter(|(_, stiffness)| *stiffness != 0.0)
             .map(|(direction, stiffness)| (direction, self.materials.elastic(stiffness, 0.0)))
             .collect();
-        if !directions.is_empty() {
-            self.spring(first, last, &directions, damped);
+        // P-Delta acts on displacements alone.
+        match damped {
+            _ if directions.is_empty() => {}
+            ProportionalDamping::None => self.spring(first, last, &directions, damped),
+            _ => self.storey_spring(building, [first, last], &directions, damped),
         }
     }
 
@@ -264,31 +278,8 @@ impl Script<'_> {
         }
     }
 
-    /// Dashpots α m between every floor and the point of the mat below its centre of mass.
-    fn damp_relative_to_mat<'t>(
-        &mut self,
-        index: usize,
-        mat: usize,
-        alpha: f64,
-        floors: impl Iterator<Item = (usize, &'t Tier)>,
-    ) {
-        if alpha == 0.0 {
-            return;
-        }
-        for (node, floor) in floors {
-            let below = self.point(index, Some(mat), floor.centre);
-            let last = self.tag(index, node);
-            let masses = [floor.mass, floor.mass, floor.polar_mass];
-            let dashpots = DIRECTIONS.into_iter().zip(masses);
-            let dashpots: Vec<(usize, usize)> = dashpots
-                .map(|(direction, mass)| (direction, self.materials.elastic(0.0, alpha * mass)))
-                .collect();
-            self.spring(below, last, &dashpots, ProportionalDamping::None);
-        }
-    }
-
     /// A node at a point of the plan that moves with a floor, or stands still.
-    fn point(&mut self, index: usize, floor: Option<usize>, at: PlanPoint) -> usize {
+    pub(super) fn point(&mut self, index: usize, floor: Option<usize>, at: PlanPoint) -> usize {
         let tag = self.tag(index, self.next_point[index]);
         self.next_point[index] += 1;
         let [x, y] = at.map(rounded);
@@ -326,7 +317,7 @@ impl Script<'_> {
             if contact.friction.is_some() {
                 refuse(
                     "friction",
-                    "is not exported yet; leave it out to compare contacts without friction",
+                    "is not exported: the contact materials of OpenSees act along the normal alone; leave it out to compare contacts without friction",
                 );
             }
             let (material, remark) = match self.materials.contact(contact) {
@@ -375,10 +366,118 @@ impl Script<'_> {
         }
     }
 
+    /// Links and dampers between points of floors.
+    pub(super) fn add_plan_links(&mut self, faults: &mut Vec<ModelFault>) {
+        let system = self.export.system;
+        for link in system.model_links() {
+            let path = format!("link[{}]", link.link);
+            let Some(at) = self.export.model.links[link.link].at else {
+                continue;
+            };
+            let ports = link.ports.0.each_ref();
+            let base = link
+                .ports
+                .0
+                .iter()
+                .flatten()
+                .next()
+                .map(|port| port.building);
+            let base = base.and_then(|building| {
+                let discretization = &system.buildings[building].discretization;
+                discretization.stick_model.plan_base
+            });
+            if link.inside && base.is_some_and(|base| base.rocking.is_some()) {
+                faults.push(ModelFault {
+                    path: format!("{path}.between"),
+                    problem: "joins floors of a building whose base rocks; the rocking does not deform it, but a spring of OpenSees between two points has all of their motion: leave it out, or take a base that does not rock, to compare".to_owned(),
+                });
+                continue;
+            }
+            let (material, remark) = match self.materials.link(link, false) {
+                Ok(found) => found,
+                Err(rule) => {
+                    faults.push(ModelFault {
+                        path: format!("{path}.hinge.rule"),
+                        problem: format!(
+                            "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
+                        ),
+                    });
+                    continue;
+                }
+            };
+            if let Some(remark) = remark {
+                self.remark(remark);
+            }
+            let ends = [0, 1].map(|side| self.contact_point(ports[side].as_ref(), at[side]));
+            let tag = self.element();
+            let floors = link
+                .ports
+                .floors()
+                .map(|floor| floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string()));
+            let _ = writeln!(
+                self.links,
+                "    ({tag}, {}, {}, {material}, {}, ({}, {}), {:?}, False),",
+                ends[0],
+                ends[1],
+                link.link,
+                floors[0],
+                floors[1],
+                rounded(link.height),
+            );
+            let [x, y] = [0, 1].map(|axis| at[1][axis] - at[0][axis]);
+            let length = (x * x + y * y).sqrt();
+            let _ = writeln!(
+                self.directions,
+                "    ({tag}, {:?}, {:?}),",
+                x / length,
+                y / length
+            );
+        }
+    }
+
+    /// A wall on the site that gives way along its normal: a mass on a spring and a dashpot.
+    pub(super) fn add_wall_in_plan(&mut self, index: usize, building: &BuildingSystem) {
+        let sticks = &building.discretization.stick_model;
+        let (Some(node), Some(spring)) = (
+            building.discretization.floors.first(),
+            sticks.springs.first(),
+        ) else {
+            return;
+        };
+        let Influence { along, across, .. } = sticks.nodes[*node].influence[0];
+        let mass = sticks.nodes[*node].inertia[0];
+        let tag = self.tag(index, *node);
+        let _ = writeln!(
+            self.nodes,
+            "    # {}\n    ({tag}, 0.0, 0.0, {mass:?}, 0.0),",
+            comment(&building.name)
+        );
+        let _ = writeln!(self.levels, "    ({tag}, 0.0),");
+        let ground = self.point(index, None, [0.0; 2]);
+        let held = self.materials.elastic(HELD * mass + spring.stiffness, 0.0);
+        let material = self.materials.elastic(spring.stiffness, spring.dashpot);
+        for (direction, material) in [(1, material), (2, held), (6, held)] {
+            let none = ProportionalDamping::None;
+            self.add_upright_spring([ground, tag], [along, across], (direction, material), none);
+        }
+        self.remark("A wall that gives way is held along its face and in rotation by springs of 1e9 1/s2 times its mass.");
+        let _ = writeln!(
+            self.buildings,
+            "    {{\"name\": {}, \"nodes\": ({tag}, {}), \"floors\": [{tag}], \"alpha\": 0.0, \"beta\": 0.0, \"weight\": False}},",
+            text(&building.name),
+            self.tag(index, self.next_point[index] - 1),
+        );
+    }
+
     fn contact_point(&mut self, port: Option<&Port>, at: PlanPoint) -> usize {
+        let walls = self.export.model.buildings.len();
         let (building, floor) = match port {
             // Points of walls stand still; any building numbers them.
             None => (0, None),
+            Some(port) if port.building >= walls => {
+                let wall = &self.export.system.buildings[port.building].discretization;
+                (port.building, wall.floors.first().copied())
+            }
             Some(port) => {
                 let floor = port.floor.map(|floor| self.level(port.building, floor));
                 (port.building, floor)
@@ -390,7 +489,9 @@ impl Script<'_> {
     /// Node of a floor; 0 is the mat.
     fn level(&self, building: usize, floor: usize) -> usize {
         let discretization = &self.export.system.buildings[building].discretization;
-        let mat = discretization.mat.map_or(0, |mat| mat.node);
+        let base = discretization.stick_model.plan_base;
+        let mat = discretization.mat.map(|mat| mat.node);
+        let mat = mat.or(base.map(|base| base.footing)).unwrap_or(0);
         floor
             .checked_sub(1)
             .map_or(mat, |index| discretization.floors[index])

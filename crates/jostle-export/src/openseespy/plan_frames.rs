@@ -6,12 +6,13 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use jostle::linear::Row;
-use jostle::structure::{Discretization, Element, Hinge, Member, StickModel, Support, Turn};
+use jostle::structure::{Hinge, StickModel, Support, Turn};
 use jostle::system::BuildingSystem;
 use jostle::{PlanFrame, ProportionalDamping, Tiers};
 
 use super::fibres::FibreEnd;
+use super::panels::Panels;
+use super::plan_base::DampedMass;
 use super::script::{Script, python_damping, rounded};
 use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
 
@@ -20,49 +21,6 @@ const STIFF: f64 = 1e6;
 
 /// Directions of OpenSees, along a line, upwards and about the axis across both, of the displacements in the plane of a frame.
 const DIRECTIONS: [usize; COMPONENTS] = [1, 3, 5];
-
-/// What of the frames of a building cannot be exported: its key, and why.
-pub(super) fn refusal(
-    tiers: &Tiers,
-    discretization: &Discretization,
-) -> Option<(&'static str, &'static str)> {
-    let stick_model = &discretization.stick_model;
-    let is_diagonal = |row: &Row| {
-        let mut diagonals = discretization.diagonals.iter();
-        diagonals.any(|diagonal| diagonal.elongation == *row)
-    };
-    let others = stick_model.elements.iter().any(|element| match element {
-        Element::Spring { row, .. } => {
-            let mut nodes = row.entries().iter().map(|(place, _)| place / COMPONENTS);
-            nodes.any(|node| stands_in_frame(stick_model, node)) && !is_diagonal(row)
-        }
-        Element::Matrix { .. } => false,
-    });
-    let compressed = |member: &Member| member.compression != 0.0;
-    let mut members = stick_model.members.iter();
-    if !tiers.frames.is_empty() && (others || members.any(compressed)) {
-        return Some((
-            ".frame",
-            "has springs or P-Delta of single columns, which are not exported yet for frames at lines of a plan; leave them out to compare",
-        ));
-    }
-    let any = |test: fn(&PlanFrame) -> bool| tiers.frames.iter().any(test);
-    if any(|frame| frame.hinges.shear.iter().flatten().next().is_some()) {
-        return Some((
-            ".frame.shear_failure",
-            "of frames at lines of a plan is not exported yet; leave it out to compare columns that keep their shear strength",
-        ));
-    }
-    if any(|frame| {
-        !frame.is_along_an_axis() && (frame.has_masses_between_floors() || !frame.base.is_fixed())
-    }) {
-        return Some((
-            ".frame.direction",
-            "is neither x nor y, and the frame has masses between floors or springs at its base, which are exported only along x and y; give column_segments = 1 and a fixed base to compare",
-        ));
-    }
-    None
-}
 
 impl Script<'_> {
     /// Joints, members, hinges, fibres and diagonals of all frames of a building.
@@ -133,12 +91,30 @@ impl Script<'_> {
         }
         self.add_upright_fibres(index, building, &frames)?;
         self.add_upright_slides(index, building, &frames)?;
+        // Columns that fail in shear.
+        for spring in &stick_model.springs {
+            let Some(frame) = frames.get(&spring.ends[0]) else {
+                continue;
+            };
+            let ends = spring.ends.map(|node| self.tag(index, node));
+            for material in
+                self.spring_materials(spring.stiffness, spring.hysteresis.as_ref(), spring.dashpot)?
+            {
+                let along = (DIRECTIONS[0], material);
+                let damped = spring.proportional_damping;
+                self.add_upright_spring(ends, frame.direction, along, damped);
+            }
+        }
+        let mut panels = Panels::default();
         for diagonal in &discretization.diagonals {
             if diagonal.frame.is_some() {
                 let ends = diagonal.ends.map(|node| self.tag(index, node));
+                let first = self.next_element;
                 self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+                panels.add(diagonal, first..self.next_element);
             }
         }
+        self.add_panels(index, building, panels);
         Ok(())
     }
 
@@ -159,6 +135,13 @@ impl Script<'_> {
             );
             let [x, y] = frame.point_at(node.x).map(rounded);
             let [c, s] = frame.direction;
+            let rides = [1, 2].iter().all(|component| {
+                let place = COMPONENTS * number + component;
+                node.y == 0.0 && stick_model.ties.contains_key(&place)
+            });
+            if rides {
+                let _ = writeln!(self.riding, "    ({on}, {tag}),");
+            }
             let holds = [0, 1, 2].map(|component| usize::from(held(*number, component)));
             let moving = node.support != Support::Fixed;
             let [mass, rising, turning] = match moving {
@@ -173,6 +156,14 @@ impl Script<'_> {
                 holds[1],
                 holds[2],
             );
+            if moving {
+                self.damped.push(DampedMass {
+                    tag,
+                    at: [x, y, node.y],
+                    direction: frame.direction,
+                    inertia: [mass, rising, turning],
+                });
+            }
             if holds[1] == 0 && (rising != 0.0 || node.load != 0.0) {
                 let _ = writeln!(self.carried, "    ({tag}, {rising:?}, {:?}),", node.load);
             }
@@ -259,7 +250,7 @@ impl Script<'_> {
         Ok(())
     }
 
-    fn add_upright_spring(
+    pub(super) fn add_upright_spring(
         &mut self,
         [first, last]: [usize; 2],
         [c, s]: [f64; 2],

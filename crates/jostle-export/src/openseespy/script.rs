@@ -5,6 +5,7 @@ use std::sync::Arc;
 use jostle::{Fibre, ModelFault, ProportionalDamping};
 
 use super::materials::Materials;
+use super::plan_base::DampedMass;
 use super::space_frame::joints_of;
 use crate::Export;
 
@@ -17,7 +18,7 @@ pub(super) struct Script<'a> {
     pub(super) places: Vec<f64>,
     /// Numbers from which the nodes of a building count.
     block: usize,
-    next_element: usize,
+    pub(super) next_element: usize,
     /// Lists of fibres, in the order of their numbers.
     pub(super) fibre_lists: Vec<Arc<[Fibre]>>,
     pub(super) buildings: String,
@@ -57,6 +58,18 @@ pub(super) struct Script<'a> {
     pub(super) upright_springs: String,
     /// Heights of floors in plan.
     pub(super) levels: String,
+    /// Panels that fall.
+    pub(super) falling: String,
+    /// Directions of links in plan.
+    pub(super) directions: String,
+    /// Bases in plan that rock, what leans with them, and points of them at a height.
+    pub(super) rocking: String,
+    pub(super) tilted: String,
+    pub(super) riding: String,
+    pub(super) raised: String,
+    pub(super) tilted_storeys: String,
+    /// Masses beside those of floors, of the building in the making.
+    pub(super) damped: Vec<DampedMass>,
 }
 
 impl<'a> Script<'a> {
@@ -74,17 +87,27 @@ impl<'a> Script<'a> {
                 // Two points of every storey, twice with P-Delta, both of every contact and bearing, and one of the mat below every floor.
                 let mat = building.mat_in_plan.as_ref();
                 let bearings = mat.map_or(0, |mat| mat.bearings.len());
-                let points = match &building.discretization.stick_model.foundation {
+                let sticks = &building.discretization.stick_model;
+                // A base that moves has points below masses, and twelve at most of its own.
+                let moves = mat.is_some() || sticks.plan_base.is_some();
+                let of_base = if moves { nodes + 12 } else { 0 };
+                let supports = bearings + sticks.bed.len();
+                let points = match &sticks.foundation {
                     _ if in_plan => {
-                        5 * building.floors.len() + 2 * (export.system.contacts.len() + bearings)
+                        5 * building.floors.len()
+                            + 2 * (export.system.contacts.len()
+                                + export.system.links.len()
+                                + supports)
+                            + 1
+                            + of_base
                     }
                     // Two beside every mass and of every link, and those of the soil.
                     Some(_) => {
                         2 * (nodes + export.system.links.len() + 2 * export.system.buildings.len())
                             + 2
                     }
-                    // The ground.
-                    None => 1,
+                    // The ground, and stages of a bearing.
+                    None => 4,
                 };
                 nodes + points
             });
@@ -128,6 +151,14 @@ impl<'a> Script<'a> {
             upright: String::new(),
             upright_springs: String::new(),
             levels: String::new(),
+            falling: String::new(),
+            directions: String::new(),
+            rocking: String::new(),
+            tilted: String::new(),
+            riding: String::new(),
+            raised: String::new(),
+            tilted_storeys: String::new(),
+            damped: Vec::new(),
         };
         let mut faults = Vec::new();
         let mut place = 0.0;
@@ -138,6 +169,10 @@ impl<'a> Script<'a> {
                 .iter()
                 .fold(0.0, |widest: f64, node| widest.max(node.x));
             script.next_point.push(nodes.len());
+            if in_plan && index >= export.model.buildings.len() {
+                script.add_wall_in_plan(index, building);
+                continue;
+            }
             if building.is_in_space() {
                 if let Err(fault) = script.add_plan_building(index, building) {
                     faults.push(fault);
@@ -155,6 +190,7 @@ impl<'a> Script<'a> {
         }
         if in_plan {
             script.add_plan_contacts(&mut faults);
+            script.add_plan_links(&mut faults);
         } else {
             script.add_contacts(&mut faults);
             script.add_links(&mut faults);

@@ -57,7 +57,13 @@ impl Matrix {
         let n = 2 * places.len();
         let mut sums = [vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]];
         for (at, place) in places.iter().enumerate() {
-            let coefficients = [place.own_stiffness, place.own_damping];
+            let [uu, ut, tt] = place.own_stiffness;
+            // Contact springs hold one that lifts off against rotation.
+            let own_stiffness = match place.foundation.uplift {
+                Some(_) => [uu, 0.0, 0.0],
+                None => [uu, ut, tt],
+            };
+            let coefficients = [own_stiffness, place.own_damping];
             for (sum, [uu, ut, tt]) in sums.iter_mut().zip(coefficients) {
                 sum[2 * at][2 * at] += uu;
                 sum[2 * at][2 * at + 1] += ut;

@@ -6,10 +6,13 @@ use std::fmt::Write;
 use jostle::structure::{MemberEnd, MemberPlace, SpringPlace};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Building, PlanAxis, ProportionalDamping, SpaceFrame, SpaceMember, SpacePlace, Structure,
+    Building, PlanAxis, ProportionalDamping, ShearEnds, SpaceFrame, SpaceMember, SpacePlace,
+    Structure,
 };
 
 use super::fibres::FibreEnd;
+use super::panels::Panels;
+use super::plan_base::DampedMass;
 use super::script::{Script, python_damping, rounded};
 
 /// Stiffness of springs that join a member to its joint where it has no hinge, in units of the stiffest member \[–\].
@@ -37,7 +40,10 @@ pub(super) fn has_hinges_on_arms(frame: &SpaceFrame) -> bool {
 
 /// Whether a member has ends of its own beside its joints.
 fn has_ends(frame: &SpaceFrame, member: &SpaceMember) -> bool {
-    member.may_yield() || frame.fibres.contains_key(&member.place)
+    let mut axes = PlanAxis::BOTH.into_iter();
+    member.may_yield()
+        || frame.fibres.contains_key(&member.place)
+        || axes.any(|axis| frame.shear.contains_key(&(member.place, axis)))
 }
 
 impl Script<'_> {
@@ -54,6 +60,9 @@ impl Script<'_> {
         }
         let floors = &building.discretization.floors;
         let mat = building.discretization.mat.map(|mat| mat.node);
+        let plan_base = building.discretization.stick_model.plan_base;
+        let mat = mat.or(plan_base.map(|base| base.footing));
+        let rocks = plan_base.is_some_and(|base| base.rocking.is_some());
         let stiff = stiffest(frame, storey_heights);
         // Level 0 is the ground or the mat.
         let mut tags: BTreeMap<(usize, [usize; 2]), usize> = BTreeMap::new();
@@ -90,6 +99,9 @@ impl Script<'_> {
                             self.space_joints,
                             "    ({tag}, {x:?}, {y:?}, {z:?}, {floor}),"
                         );
+                        if let (0, true) = (place.0, rocks) {
+                            let _ = writeln!(self.riding, "    ({floor}, {tag}),");
+                        }
                         tag
                     }
                 };
@@ -131,8 +143,13 @@ impl Script<'_> {
                 let _ = writeln!(self.rigid_ends, "    ({element}, {first:?}, {last:?}),");
             }
         }
-        self.add_carried(building, &tags);
+        self.add_carried(building, frame, &tags);
+        let mut panels = Panels::default();
+        let of_frame = building.discretization.diagonals.iter();
+        let mut of_frame = of_frame.filter(|diagonal| diagonal.frame.is_none());
         for diagonal in &frame.diagonals {
+            let placed = of_frame.next();
+            let before = self.next_element;
             let Some(crossings) = diagonal.place.crossings() else {
                 continue;
             };
@@ -146,7 +163,11 @@ impl Script<'_> {
                 diagonal.stiffness,
                 diagonal.hysteresis.as_ref(),
             )?;
+            if let Some(placed) = placed {
+                panels.add(placed, before..self.next_element);
+            }
         }
+        self.add_panels(index, building, panels);
         Ok(())
     }
 
@@ -154,6 +175,7 @@ impl Script<'_> {
     fn add_carried(
         &mut self,
         building: &BuildingSystem,
+        frame: &SpaceFrame,
         tags: &BTreeMap<(usize, [usize; 2]), usize>,
     ) {
         let nodes = &building.discretization.stick_model.nodes;
@@ -163,13 +185,20 @@ impl Script<'_> {
         for joint in joints.flat_map(|frame| &frame.joints) {
             let tag = tags.get(&(joint.floor + 1, joint.crossing));
             if let (Some(node), Some(tag)) = (joint.nodes[0], tag) {
-                carried.insert(node, *tag);
+                carried.insert(node, (*tag, joint.crossing));
             }
         }
-        for (node, tag) in carried {
+        for (node, (tag, crossing)) in carried {
             let (mass, load) = (nodes[node].inertia[2], nodes[node].load);
             if mass != 0.0 || load != 0.0 {
                 let _ = writeln!(self.carried, "    ({tag}, {mass:?}, {load:?}),");
+                let point = frame.point(crossing);
+                self.damped.push(DampedMass {
+                    tag,
+                    at: [point[0], point[1], nodes[node].y],
+                    direction: [1.0, 0.0],
+                    inertia: [0.0, mass, 0.0],
+                });
             }
         }
     }
@@ -200,17 +229,16 @@ impl Script<'_> {
                 direction: frame.direction,
             };
             self.add_fibre_end(building, &end)?;
-            let [c, s] = frame.direction;
-            let _ = writeln!(
-                self.space_hinges,
-                "    ({tag}, {joint}, ({c:?}, {s:?}), ()),"
-            );
-            return Ok(tag);
         }
         // Rises, and turns about x and about y of the lines.
-        let [vertical, turning] = hinges.stiff;
+        let [stiff, turning] = hinges.stiff;
         let rigid = ProportionalDamping::None;
-        let mut springs = vec![(joint, tag, 3, self.materials.elastic(vertical, 0.0), rigid)];
+        let mut springs = self.shear_springs(frame, [joint, tag], hinges)?;
+        if fibres.is_some() {
+            self.add_springs_of_end(frame, [joint, tag], springs);
+            return Ok(tag);
+        }
+        springs.push((joint, tag, 3, self.materials.elastic(stiff, 0.0), rigid));
         let places = &building.discretization.spring_places;
         for axis in PlanAxis::BOTH {
             let wanted = SpringPlace::InSpace {
@@ -241,22 +269,70 @@ impl Script<'_> {
                 },
             );
         }
+        self.add_springs_of_end(frame, [joint, tag], springs);
+        self.remark("Ends of members with hinges are joined to their joints by springs of 1e6 times the stiffest member where they have no hinge.");
+        Ok(tag)
+    }
+}
+
+/// A spring at the end of a member: its nodes, direction, material and damping.
+type EndSpring = (usize, usize, usize, usize, ProportionalDamping);
+
+impl Script<'_> {
+    /// Springs sideways at the end of a column that can fail in shear, and what holds it otherwise in plan; none at other ends, which move
+    /// with their joints.
+    fn shear_springs(
+        &mut self,
+        frame: &SpaceFrame,
+        [joint, tag]: [usize; 2],
+        hinges: &Hinges,
+    ) -> Result<Vec<EndSpring>, &'static str> {
+        let of_axis = |axis: PlanAxis| {
+            let column = frame.shear.get(&(hinges.place, axis))?;
+            let fails = hinges.end == MemberEnd::First || column.ends == ShearEnds::Both;
+            fails.then_some(&column.spring)
+        };
+        let found = PlanAxis::BOTH.map(of_axis);
+        if found == [None; 2] {
+            return Ok(Vec::new());
+        }
+        let [stiff, turning] = hinges.stiff;
+        let rigid = ProportionalDamping::None;
+        let mut springs = Vec::new();
+        let [first, last] = match hinges.end {
+            MemberEnd::First => [joint, tag],
+            MemberEnd::Last => [tag, joint],
+        };
+        for (axis, spring) in PlanAxis::BOTH.into_iter().zip(found) {
+            let material = match spring {
+                Some(hysteresis) => self.materials.yielding(hysteresis)?,
+                None => self.materials.elastic(stiff, 0.0),
+            };
+            springs.push((first, last, 1 + axis.index(), material, rigid));
+        }
+        springs.push((first, last, 6, self.materials.elastic(turning, 0.0), rigid));
+        Ok(springs)
+    }
+
+    fn add_springs_of_end(
+        &mut self,
+        frame: &SpaceFrame,
+        [joint, tag]: [usize; 2],
+        springs: Vec<EndSpring>,
+    ) {
         let [c, s] = frame.direction;
-        let springs: Vec<String> = springs
+        let rows = springs
             .into_iter()
             .map(|(first, last, direction, material, damped)| {
                 let element = self.element();
                 let damped = python_damping(damped);
                 format!("({element}, {first}, {last}, {direction}, {material}, {damped})")
-            })
-            .collect();
+            });
+        let rows = rows.collect::<Vec<_>>().join(", ");
         let _ = writeln!(
             self.space_hinges,
-            "    ({tag}, {joint}, ({c:?}, {s:?}), ({})),",
-            springs.join(", ")
+            "    ({tag}, {joint}, ({c:?}, {s:?}), ({rows})),"
         );
-        self.remark("Ends of members with hinges are joined to their joints by springs of 1e6 times the stiffest member where they have no hinge.");
-        Ok(tag)
     }
 }
 

@@ -200,6 +200,48 @@ impl Script<'_> {
         )?;
         table(
             out,
+            "FALLING",
+            "panel that falls: acceleration at which it does [m/s2], number of its building, floors below and above it (None is the ground), unit normal, elements of its struts",
+            &self.falling,
+        )?;
+        table(
+            out,
+            "DIRECTIONS",
+            "element of a link in plan, unit vector from its first end to its second",
+            &self.directions,
+        )?;
+        table(
+            out,
+            "ROCKING",
+            "base in plan that rocks, rotary inertia about x and about y [kg m2]",
+            &self.rocking,
+        )?;
+        table(
+            out,
+            "TILTED",
+            "element, base that rocks, floor that leans with it, material of what joins their rotations",
+            &self.tilted,
+        )?;
+        table(
+            out,
+            "TILTED_STOREYS",
+            "the same as SPRINGS, of storeys between floors that lean",
+            &self.tilted_storeys,
+        )?;
+        table(
+            out,
+            "RIDING",
+            "base that rocks, foot that moves with it in all directions",
+            &self.riding,
+        )?;
+        table(
+            out,
+            "RAISED",
+            "point that moves with a base in plan, its height [m]",
+            &self.raised,
+        )?;
+        table(
+            out,
             "JOINTS",
             "joint of a space frame, x, y, z [m], node of the floor with which it moves; None is the ground",
             &self.space_joints,

@@ -13,8 +13,11 @@ use jostle::structure::{StickModel, Support};
 
 /// Horizontal, vertical, rotation.
 pub(super) const COMPONENTS: usize = 3;
+const HORIZONTAL: usize = 0;
 const VERTICAL: usize = 1;
-const ROTATION: usize = 2;
+pub(super) const ROTATION: usize = 2;
+/// Nodes closer than this lie on one line \[m\].
+pub(super) const SAME_LINE: f64 = 1e-9;
 
 /// How every displacement of one building is held.
 pub(super) struct Ties {
@@ -44,13 +47,22 @@ pub(super) fn is_held(stick_model: &StickModel, node: usize, component: usize) -
     let Some(foundation) = &stick_model.foundation else {
         return is_held_by(support, component);
     };
-    let lever = stick_model.lever(node);
+    let lifts = !stick_model.bed.is_empty();
     match component {
-        VERTICAL if node == foundation.node || lever == Some(0.0) => true,
+        HORIZONTAL if node == foundation.node && !foundation.sways => true,
+        // Floors of a shear building rise with a foundation that lifts off.
+        VERTICAL if lifts && support == Support::Guided => false,
+        VERTICAL if node == foundation.node || stands_above(stick_model, node) => !lifts,
         // Floors of a shear building turn with their foundation.
         ROTATION if support == Support::Guided => false,
         _ => is_held_by(support, component),
     }
+}
+
+/// Whether a node rises with a foundation as its node does, at no distance from it.
+fn stands_above(stick_model: &StickModel, node: usize) -> bool {
+    let lever = stick_model.lever(node);
+    lever.is_some_and(|lever| lever.abs() <= SAME_LINE)
 }
 
 impl Ties {
@@ -73,14 +85,21 @@ impl Ties {
             }
         }
         if let Some(foundation) = &stick_model.foundation {
+            let lifts = !stick_model.bed.is_empty();
             for foot in &foundation.feet {
-                for component in [0, ROTATION] {
+                for component in [HORIZONTAL, ROTATION] {
                     union.join(place(*foot, component), place(foundation.node, component));
+                }
+                if lifts && stands_above(stick_model, *foot) {
+                    union.join(place(*foot, VERTICAL), place(foundation.node, VERTICAL));
                 }
             }
             for (node, stick_node) in stick_model.nodes.iter().enumerate() {
                 if stick_node.support == Support::Guided {
                     union.join(place(node, ROTATION), place(foundation.node, ROTATION));
+                    if lifts {
+                        union.join(place(node, VERTICAL), place(foundation.node, VERTICAL));
+                    }
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Exported scripts: read back as tables, and compared with runs of OpenSees.
 
+mod bearings;
 mod driver;
 mod fibres;
 mod grounds;

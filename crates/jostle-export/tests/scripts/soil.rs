@@ -42,6 +42,68 @@ law = "linear"
 stiffness = "200 MN/m"
 "#;
 
+/// Ground under a foundation that lifts off, and under feet: it presses upwards only, and its sums are those of the model.
+#[test]
+fn contact_springs_press_upwards_alone() {
+    const MODEL: &str = include_str!("../../../jostle-validation/data/opensees/uplift.toml");
+    let text = export(&model(MODEL)).expect("it can be exported").text;
+    let materials = table(&text, "MATERIALS");
+    let ground = |tag: &str| {
+        let material = materials
+            .iter()
+            .find(|row| row[1] == tag)
+            .expect("a material");
+        (material[0] == "\"ElasticPPGap\"").then(|| [2, 3].map(|at| number(&material[at])))
+    };
+    let nodes = table(&text, "NODES");
+    let x = |tag: &str| {
+        let node = nodes.iter().find(|row| row[0] == tag).expect("a node");
+        number(&node[1])
+    };
+    let mut sums = [0.0; 2];
+    for row in table(&text, "LEVERED") {
+        let Some([stiffness, strength]) = ground(&row[3]) else {
+            continue;
+        };
+        // A lever deforms by the rise of its first end to the left, and by the opposite to the right.
+        let arm = x(&row[2]) - x(&row[1]);
+        assert_eq!(strength > 0.0, arm > 0.0);
+        sums[usize::from(row[1].starts_with('2'))] += stiffness;
+    }
+    for row in table(&text, "SPRINGS") {
+        if let Some([stiffness, strength]) = ground(&row[4]) {
+            assert_eq!((&row[3][..], strength < 0.0), ("2", true));
+            sums[usize::from(row[2].starts_with('2'))] += stiffness;
+        }
+    }
+    assert!((sums[0] / 900e6 - 1.0).abs() < 1e-12 && (sums[1] / 400e6 - 1.0).abs() < 1e-12);
+    let feet = include_str!("../../../jostle-validation/data/opensees/uplift_feet.toml");
+    let text = export(&model(feet)).expect("it can be exported").text;
+    assert!(
+        text.contains("\"footings\": [(1002, 0.0, 0.0), (1004, 0.0, 0.0)]"),
+        "{text}"
+    );
+}
+
+/// Damping relative to the ground stays that of the masses.
+#[test]
+fn masses_on_a_foundation_may_be_damped_relative_to_the_ground() {
+    let text = GIVEN.replacen(
+        "damping = { ratio = 0.05, modes = [1, 2] }",
+        "damping = { alpha = 0.4, beta = 0.002, relative_to = \"ground\" }",
+        1,
+    );
+    let text = export(&model(&text)).expect("it can be exported").text;
+    let alphas: Vec<&str> = text
+        .lines()
+        .filter(|line| line.contains("\"alpha\":"))
+        .collect();
+    assert!(
+        alphas[0].contains("\"alpha\": 0.4,") && alphas[1].contains("\"alpha\": 0.0,"),
+        "{alphas:?}"
+    );
+}
+
 /// Displacements of nodes, by tag and direction, through ties and supports.
 struct Moved {
     own: BTreeMap<(String, usize), f64>,

@@ -118,6 +118,44 @@ class Watch:
             self.sums[face] = max(self.sums[face], total)
 
 
+class Panels:
+    """Panels that fall where the total acceleration of a floor beside them reaches what they bear."""
+
+    def __init__(self):
+        self.standing = list(enumerate(FALLING))
+        self.fallen = {}
+
+    def drop(self):
+        """Removes the struts of those that fall now; whether there were any."""
+        if not self.standing:
+            return False
+        grounds = [ground_acceleration(index, ops.getTime()) for index in range(len(BUILDINGS))]
+        left = []
+        for number, panel in self.standing:
+            limit, building, sides, normal, struts = panel
+            ground = grounds[building]
+            if all(abs(across(side, normal, ground)) < limit for side in sides):
+                left.append((number, panel))
+                continue
+            for strut in struts:
+                ops.remove("element", strut)
+            self.fallen[number] = ops.getTime()
+        some = len(left) < len(self.standing)
+        self.standing = left
+        return some
+
+
+def across(node, normal, ground):
+    """Total acceleration of a floor, or of the ground, along a normal."""
+    x, y = normal
+    total = x * ground[0] + y * ground[1]
+    if node is None:
+        return total
+    # Where grounds move apart, motions are those in space.
+    own = sum(part * ops.nodeAccel(node, direction) for direction, part in ((1, x), (2, y)) if part)
+    return own if GROUNDS else total + own
+
+
 def distance_inside(end):
     """How far a corner is inside of an end of its edge [m]."""
     own, other, inside = end

@@ -74,6 +74,39 @@ class Grounds:
         return [path.at(time)[1] for path in self.paths] or [0.0] * len(BUILDINGS)
 
 
+def acceleration_at(motion, time):
+    """Of a ground motion, its factor included."""
+    if time < 0.0 or time > motion["DURATION"] and "RECORD" not in motion:
+        return 0.0
+    if "SINE" in motion:
+        amplitude, period = motion["SINE"]
+        value = amplitude * math.sin(2.0 * math.pi * time / period)
+    else:
+        step, values = ground_values(motion)
+        index = int(time / step)
+        share = time / step - index
+        pair = (values + [0.0, 0.0])[index : index + 2] if index < len(values) else (0.0, 0.0)
+        value = pair[0] + share * (pair[1] - pair[0])
+    return motion["MOTION_FACTOR"] * value
+
+
+def ground_acceleration(building, time):
+    """Along x and across, under a building."""
+    if GROUNDS:
+        name, arrival = GROUNDS[building]
+        return acceleration_at(motion_of(name), time - arrival), 0.0
+    if not IN_PLAN:
+        return acceleration_at(globals(), time), 0.0
+    x = y = 0.0
+    motions = [(globals(), globals().get("ANGLE", 0.0))]
+    if "ACROSS" in globals():
+        motions.append((vars(ACROSS), ANGLE + 0.5 * math.pi))
+    for motion, angle in motions:
+        value = acceleration_at(motion, time)
+        x, y = x + value * math.cos(angle), y + value * math.sin(angle)
+    return x, y
+
+
 def ground_values(motion):
     """Step and values of a ground motion, unscaled."""
     if "RECORD" in motion:

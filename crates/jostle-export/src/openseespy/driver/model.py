@@ -19,14 +19,14 @@ STIFF = 1e4
 HALVINGS = 30  # of a step that does not converge, at most
 MOST_PARTS = 10_000  # of such a step
 SETTLED = 1e-10  # displacement in the last iteration [m]
+SKEW = 1e-9  # cosine of a right angle, with rounding
 OF_SHEAR = 1_000_000  # sections of members that shear are numbered from here on
 LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
-DIRECTIONS = {1: 1, 2: 2, 6: 3}
 IN_PLAN = bool(ARMS or JOINTS or UPRIGHT)  # nodes are floors seen from above: they move along x, across, and turn
-IN_SPACE = bool(JOINTS or UPRIGHT)  # columns and beams stand between the floors: x and y are the site, z is up
+IN_SPACE = bool(JOINTS or UPRIGHT or ROCKING)  # columns and beams stand between the floors: x and y are the site, z is up
 TURN = 6 if IN_SPACE else 3  # rotation about the vertical axis, of floors in plan
 FIXED_ALONG = []  # nodes that are fixed along the row, which move with grounds that move apart
-NORMALS = {tag: (x, y) for tag, _, _, x, y, *_ in FACES}
+NORMALS = {tag: (x, y) for tag, _, _, x, y, *_ in FACES} | {tag: (x, y) for tag, x, y in DIRECTIONS}
 CORNERS = {}  # contacts that end where a corner leaves its edge
 for tag, *end in ENDS:
     CORNERS.setdefault(tag, []).append(end)
@@ -79,6 +79,7 @@ def build(axial):
         # Shear of a link: the difference of displacements across it, and its length times rotations.
         extra = ["-doRayleigh"] if damped else []
         ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 2, "-shearDist", share, *extra)
+    add_upright_springs()
     add_diagonals()
     add_sliders()
     add_fibres()
@@ -91,6 +92,13 @@ def build(axial):
     for tag, first, last, material in LEANING:
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
     add_contacts()
+
+
+def add_upright_springs():
+    """Springs of frames at lines, and of walls on the site, along and across a direction."""
+    for tag, first, last, direction, material, damped, (x, y) in UPRIGHT_SPRINGS:
+        extra = ["-doRayleigh", 1] if damped else []
+        ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, *extra, "-orient", x, y, 0.0, -y, x, 0.0)
 
 
 def add_diagonals():
@@ -106,8 +114,9 @@ def failing(tag, where, *numbers):
     With degrade = 1, peaks of one direction count in the other. That needs a limit curve, of some column, which is never reached."""
     *backbone, slope, residual = numbers
     never = 1e12
-    element, foot, head = next(row[:3] for row in MEMBERS if where[row[1]][1] != where[row[2]][1])
-    ops.limitCurve("ThreePoint", tag, element, 0.0, never, 2.0, never, 3.0, never, -slope, residual, 2, 0, foot, head, 1, 2)
+    up = 3 if IN_SPACE else 2
+    element, foot, head = next(row[:3] for row in (*MEMBERS, *COLUMNS_AND_BEAMS) if where[row[1]][up - 1] != where[row[2]][up - 1])
+    ops.limitCurve("ThreePoint", tag, element, 0.0, never, 2.0, never, 3.0, never, -slope, residual, 2, 0, foot, head, 1, up)
     return [*backbone, 1.0, 1.0, 0.0, 0.0, 0.0, tag, 2, 1]
 
 
@@ -143,14 +152,14 @@ def add_contacts():
             lower, upper = sorted((left, right), key=heights.get)
             ops.element("twoNodeLink", tag, lower, upper, "-mat", material, "-dir", 2)
         else:
-            ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
+            ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
     for number, building in enumerate(BUILDINGS, start=1):
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.
         ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
         # What yields and is damped by its tangent: by that at the last step.
         nodes = range(first, last + 1)
-        springs = [row for row in (*SPRINGS, *LEVERED) if row[1] in nodes or row[2] in nodes]
+        springs = [row for row in (*SPRINGS, *LEVERED, *TILTED_STOREYS) if row[1] in nodes or row[2] in nodes]
         springs += [spring for *_, springs in HINGED_ENDS for spring in springs if spring[1] in nodes]
         springs += [row[:-1] for row in UPRIGHT_SPRINGS if row[1] in nodes]
         by_tangent = [row[0] for row in springs if row[-1] == "tangent"]
@@ -165,7 +174,11 @@ def build_in_space():
     what is tied to them (Transformation). Springs of storeys join points at different heights; their length has no effect."""
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     heights = dict(LEVELS)
-    heights.update({point: heights[floor] for floor, point in ARMS})
+    heights.update({point: heights.get(floor, 0.0) for floor, point in ARMS})
+    heights.update(RAISED)
+    rocking = {tag: turning for tag, *turning in ROCKING}
+    tilted = {floor for _, _, floor, _ in TILTED}
+    riding = {foot for _, foot in RIDING}
     free = max(tag for tag, *_ in NODES + JOINTS + HINGED_ENDS + UPRIGHT) + 1
     hold = len(MATERIALS) + 2
     ops.uniaxialMaterial("Elastic", hold, 1e6)
@@ -173,45 +186,51 @@ def build_in_space():
         ops.node(tag, x, y, heights.get(tag, 0.0))
         if mass or inertia:
             along_x, across = mass if isinstance(mass, tuple) else (mass, mass)
-            ops.mass(tag, along_x, across, 0.0, 0.0, 0.0, inertia)
+            ops.mass(tag, along_x, across, 0.0, *rocking.get(tag, (0.0, 0.0)), inertia)
     places = {tag: (x, y) for tag, x, y, *_ in NODES}
     for number, (floor, z) in enumerate(LEVELS):
         ops.node(free + number, *places[floor], z)
         ops.fix(free + number, 1, 1, 1, 1, 1, 1)
-        ops.element("zeroLength", 10_000_000 + number, free + number, floor, "-mat", hold, hold, hold, "-dir", 3, 4, 5)
+        directions = [3] if floor in tilted else [3, 4, 5]
+        ops.element("zeroLength", 10_000_000 + number, free + number, floor, "-mat", *[hold] * len(directions), "-dir", *directions)
     where = {}
     tied = {}
-    mats = {building["floors"][0] for building in BUILDINGS if building.get("has_mat")}
     feet = []
     for tag, x, y, z, floor in JOINTS:
         where[tag] = (x, y, z)
         ops.node(tag, x, y, z)
         if floor is None:
             ops.fix(tag, 1, 1, 1, 1, 1, 1)
-        else:
+        elif tag not in riding:
             tied.setdefault(floor, []).append(tag)
-            if floor in mats:
+            if z == 0.0:
                 feet.append(tag)
     for tag, *_ in SUPPORTS:
         ops.fix(tag, 1, 1, 1, 1, 1, 1)
-    add_upright(where, tied, free + len(LEVELS), hold)
-    own = {tag: (mass * abs(c), mass * abs(s), turning * s * s, turning * c * c) for tag, *_, (c, s), _, mass, turning in UPRIGHT}
+    add_upright(where, tied, riding, free + len(LEVELS), hold)
+    # Of an askew frame also across it, where nothing but a soft spring holds it.
+    own = {}
+    for tag, *_, (c, s), _, mass, turning in UPRIGHT:
+        along_x, across = abs(c) > SKEW, abs(s) > SKEW
+        own[tag] = (mass * along_x, mass * across, turning * across, turning * along_x)
     for tag, mass, _ in CARRIED:
         along_x, across, *turning = own.pop(tag, (0.0, 0.0, 0.0, 0.0))
         ops.mass(tag, along_x, across, mass, *turning, 0.0)
     for tag, (along_x, across, *turning) in own.items():
         ops.mass(tag, along_x, across, 0.0, *turning, 0.0)
     floors = {tag: floor for tag, *_, floor in JOINTS}
-    for tag, joint, *_ in HINGED_ENDS:
+    for tag, joint, _, springs in HINGED_ENDS:
         where[tag] = where[joint]
         ops.node(tag, *where[joint])
+        if any(direction == 1 for *_, direction, _, _ in springs):
+            continue  # it fails in shear, and slides
         if floors[joint] is None:
             ops.fix(tag, 1, 1, 0, 0, 0, 1)
         else:
             tied.setdefault(floors[joint], []).append(tag)
     for floor, joints in tied.items():
         ops.rigidDiaphragm(3, floor, *joints)
-    for kept, point in ARMS:
+    for kept, point in (*ARMS, *RIDING):
         ops.rigidLink("beam", kept, point)
     transforms = {}
     rigid = {tag: lengths for tag, *lengths in RIGID_ENDS}
@@ -242,44 +261,54 @@ def build_in_space():
         # Held as by the ground, but free to move with the mat.
         ops.fix(foot, 0, 0, 1, 1, 1, 0)
     for name, tag, *arguments in MATERIALS:
+        if name == "LimitState":
+            arguments = failing(tag, where, *arguments)
         ops.uniaxialMaterial(name, tag, *arguments)
     for _, _, (x, y), springs in HINGED_ENDS:
         for tag, first, last, direction, material, damped in springs:
             extra = ["-doRayleigh", 1] if damped else []
             ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, *extra, "-orient", x, y, 0.0, -y, x, 0.0)
-    for tag, first, last, direction, material, damped, (x, y) in UPRIGHT_SPRINGS:
-        extra = ["-doRayleigh", 1] if damped else []
-        ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, *extra, "-orient", x, y, 0.0, -y, x, 0.0)
+    add_upright_springs()
     for tag, first, last, springs, damped in SPRINGS:
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []
         ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    for tag, base, floor, material in TILTED:
+        ops.element("zeroLength", tag, base, floor, "-mat", material, material, "-dir", 4, 5)
+    for tag, first, last, springs, damped in TILTED_STOREYS:
+        # Axes of such a link: upwards, along x, along y.
+        directions, materials = [{1: 2, 2: 3, 6: 4}[pair[0]] for pair in springs], [pair[1] for pair in springs]
+        extra = ["-doRayleigh"] if damped else []
+        ops.element("twoNodeLink", tag, first, last, "-mat", *materials, "-dir", *directions, "-orient", 1.0, 0.0, 0.0, *extra)
     add_diagonals()
     add_sliders()
     add_fibres()
     add_contacts()
 
 
-def add_upright(where, tied, free, hold):
+def add_upright(where, tied, riding, free, hold):
     """Joints of frames at lines of a plan. Nothing turns them across their frame, so a soft spring holds them there."""
     number = 0
     for tag, x, y, z, floor, (c, s), (along, rise, turn), *_ in UPRIGHT:
         where[tag] = (x, y, z)
         ops.node(tag, x, y, z)
+        if tag in riding:
+            continue
         if floor is not None:
             tied.setdefault(floor, []).append(tag)
             held = [0, 0, rise, turn, turn, 0]
         elif along:
             held = [1, 1, rise, turn, turn, 1]
         else:
-            # Between floors: it moves along its line, which is along x or across.
-            held = [int(abs(c) < 0.5), int(abs(s) < 0.5), rise, turn, turn, 1]
+            # Between floors, or sliding: it moves along its line.
+            held = [int(abs(c) <= SKEW), int(abs(s) <= SKEW), rise, turn, turn, 1]
         if any(held):
             ops.fix(tag, *held)
-        if not turn:
+        soft = ([] if turn else [4]) + ([2] if held[:2] == [0, 0] and floor is None else [])
+        if soft:
             ops.node(free + number, x, y, z)
             ops.fix(free + number, 1, 1, 1, 1, 1, 1)
-            ops.element("zeroLength", 11_000_000 + number, free + number, tag, "-mat", hold, "-dir", 4, "-orient", c, s, 0.0, -s, c, 0.0)
+            ops.element("zeroLength", 11_000_000 + number, free + number, tag, "-mat", *[hold] * len(soft), "-dir", *soft, "-orient", c, s, 0.0, -s, c, 0.0)
             number += 1
 
 

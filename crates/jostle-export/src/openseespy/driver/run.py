@@ -81,7 +81,7 @@ class Run:
     """Steps taken, and how."""
 
     def __init__(self, watch, grounds):
-        self.watch, self.grounds = watch, grounds
+        self.watch, self.grounds, self.panels = watch, grounds, Panels()
         self.steps = self.short_steps = self.iterations = self.failures = 0
         self.way = None
 
@@ -101,8 +101,20 @@ class Run:
         self.iterations += 1 if self.way == "linear" else ops.testIter()
         if status != 0:
             self.failures += 1
-            return self.rescue(step)
+            if not self.rescue(step):
+                return False
+        self.watch.changed |= self.panels.drop()
         return True
+
+    def renew(self, algorithm):
+        """A fresh analysis from the last step that converged, which Transformation by itself does not go back to."""
+        if IN_PLAN:
+            ops.wipeAnalysis()
+            prepare("ties")
+            integrate()
+        self.use(algorithm)
+        if IN_PLAN:
+            ops.analysis("Transient")
 
     def step_by(self, step):
         self.grounds.move_to(ops.getTime() + step)
@@ -110,13 +122,16 @@ class Run:
 
     def rescue(self, step):
         """A step that did not converge, in parts with a fresh tangent at every iteration."""
-        if IN_PLAN:
-            print(f"stopped at {ops.getTime():.6g} s of the motion: a step of {step:g} s does not converge, and Transformation "
-                  "does not take it back; try shorter ones with --free, or see --log FILE", file=sys.stderr)
-            return False
         way = self.way
-        self.use("newton")
-        done = in_parts(lambda part: self.step_by(part) == 0, step)
+        self.renew("newton")
+
+        def advance(part):
+            done = self.step_by(part) == 0
+            if not done:
+                self.renew("newton")
+            return done
+
+        done = in_parts(advance, step)
         self.use(way)
         if not done:
             print(f"stopped at {ops.getTime():.6g} s of the motion: a step of {step:g} s does not converge, not even in "
@@ -126,7 +141,7 @@ class Run:
 
 class Peaks:
     """Greatest displacements relative to the ground of each building, where OpenSees' own recorders do not have them: those of floors
-    on grounds that move apart, and of foundations."""
+    on grounds that move apart, of foundations, and of what can lift off."""
 
     def __init__(self, grounds):
         self.grounds = grounds
@@ -137,8 +152,20 @@ class Peaks:
             if "foundation" in building:
                 self.followed += [(building["foundation"], direction, index) for direction in (1, 3)]
         self.of = {(tag, direction): [0.0, 0.0] for tag, direction, _ in self.followed}
+        self.footings = {footing: [0.0, 0.0] for building in BUILDINGS for footing in footings_of(building)}
+        self.follow_footings()
+
+    def follow_footings(self):
+        for footing, low_high in self.footings.items():
+            if IN_PLAN:
+                risen = [ops.nodeDisp(point, 3) for point in footing]
+            else:
+                tag, *arms = footing
+                risen = [ops.nodeDisp(tag, 2) + arm * ops.nodeDisp(tag, 3) for arm in arms]
+            low_high[0], low_high[1] = min(low_high[0], *risen), max(low_high[1], *risen)
 
     def follow(self):
+        self.follow_footings()
         if not self.followed:
             return
         grounds = self.grounds.displacements(ops.getTime())
@@ -148,11 +175,20 @@ class Peaks:
             low_high[0], low_high[1] = min(low_high[0], value), max(low_high[1], value)
 
 
+def integrate():
+    ops.integrator("Newmark", 0.5, 0.25)
+
+
+def footings_of(building):
+    """What can lift off: its node and the distances of its outermost contact springs, in plan the points of all."""
+    return building.get("footings", []) + ([tuple(building["bed"])] if "bed" in building else [])
+
+
 def march(args, duration):
     """Runs through the motion; returns what was counted."""
     watch, grounds = Watch(), Grounds()
     run, peaks = Run(watch, grounds), Peaks(grounds)
-    ops.integrator("Newmark", 0.5, 0.25)
+    integrate()
     run.use(args.algorithm if args.uniform else args.free_algorithm)
     ops.analysis("Transient")
     complete = True
@@ -314,6 +350,9 @@ def analyse(args):
                 "rocking_max_rad": rocking[1],
                 "rocking_min_rad": rocking[0],
             }
+        risen = [peaks.footings[footing] for footing in footings_of(building)]
+        if risen:
+            buildings[-1]["footings"] = [{"uplift_m": max(0.0, high), "sinking_m": max(0.0, -low)} for low, high in risen]
     contacts = []
     for index, (_, _, _, _, gap, number, floors, height) in enumerate(CONTACTS):
         contacts.append({
@@ -362,6 +401,7 @@ def analyse(args):
         "contacts": contacts,
         **({"faces": faces, "corners_that_left_edges": watch.left_edge} if IN_PLAN else {}),
         "links": links,
+        **({"fallen_s": [run.panels.fallen.get(number) for number in range(len(FALLING))]} if FALLING else {}),
         "impact_count": sum(watch.impacts),
         "peak_force_n": max((contact["peak_force_n"] for contact in contacts), default=0.0),
         "first_impact_s": min(firsts, default=None),
@@ -379,7 +419,7 @@ def analyse(args):
 
 
 def main():
-    used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
+    used = [material for *_, springs, _ in (*SPRINGS, *TILTED_STOREYS) for _, material in springs] + [row[3] for row in LINKS]
     used += [row[3] for row in (*LEVERED, *DIAGONALS)]
     used += [material for *_, springs in HINGED_ENDS for *_, material, _ in springs]
     used += [row[4] for row in UPRIGHT_SPRINGS]
