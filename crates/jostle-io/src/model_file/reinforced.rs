@@ -237,15 +237,6 @@ fn read_one(
 ) -> Option<Laid> {
     // Its keys were checked where the size was read.
     let view = reader.reopen(field, sections(member))?;
-    if let Some(steel) = steel_profile::strength_of(reader, &view) {
-        return Some(Laid {
-            known: KnownSection::Profile(steel),
-            axial: match member {
-                Member::Column => Axial::FromGravity,
-                Member::Beam => Axial::Given(0.0),
-            },
-        });
-    }
     let axial = if member == Member::Column {
         match reader.get(&view, "axial_load") {
             Some(field) if field.as_text() != Some("from gravity") => {
@@ -256,6 +247,12 @@ fn read_one(
     } else {
         Some(Axial::Given(0.0))
     };
+    if let Some(steel) = steel_profile::strength_of(reader, &view) {
+        return Some(Laid {
+            known: KnownSection::Profile(steel),
+            axial: axial?,
+        });
+    }
     let size = |reader: &mut Reader<'_>| {
         if !view.has("width")
             && !view.has("depth")

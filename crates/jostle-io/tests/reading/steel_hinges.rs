@@ -81,6 +81,19 @@ fn a_portal_collapses_as_limit_analysis_says() {
     }
 }
 
+/// `axial_load` replaces the weight, as for columns with bars.
+#[test]
+fn a_load_in_numbers_replaces_the_weight() {
+    let text = portal("200 kN", HINGES);
+    let text = text.replacen("\"355 MPa\"", "\"355 MPa\", axial_load = \"2.5 MN\"", 1);
+    let left = 1.18 * (1.0 - 2.5e6 / SQUASH);
+    near(
+        yields(&hinges_of(&text).columns[0][0]),
+        left * HEB[0],
+        AS_IN_TABLES,
+    );
+}
+
 /// Moments that are given stay, side by side with those of the profile.
 #[test]
 fn given_moments_stay() {
