@@ -71,6 +71,11 @@ fn contact_springs_press_upwards_alone() {
         sums[usize::from(row[1].starts_with('2'))] += stiffness;
     }
     for row in table(&text, "SPRINGS") {
+        // Contact springs alone resist rocking.
+        if row[3] == "6" {
+            let material = materials.iter().find(|other| other[1] == row[4]);
+            assert_eq!(material.expect("a material")[2], "0.0");
+        }
         if let Some([stiffness, strength]) = ground(&row[4]) {
             assert_eq!((&row[3][..], strength < 0.0), ("2", true));
             sums[usize::from(row[2].starts_with('2'))] += stiffness;
