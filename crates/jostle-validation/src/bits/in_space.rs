@@ -16,7 +16,7 @@ const DURATION_OF_FRAMES: f64 = 1.2;
 
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
-    let models = (1..=25).map(|number| {
+    let models = (1..=26).map(|number| {
         let mut random = random(1, number);
         let (kind, tree): (&str, Value) = match number {
             1..=4 => ("beside", beside(&mut random)),
@@ -29,10 +29,11 @@ pub(super) fn models() -> Vec<Pinned> {
             21 | 22 => ("space-frame", space_frames(&mut random, number == 22)),
             23 => ("around-a-corner", around_a_corner(&mut random)),
             24 => ("upper-storeys", upper_storeys(&mut random)),
-            _ => ("struck-columns", struck_columns(&mut random)),
+            25 => ("struck-columns", struck_columns(&mut random)),
+            _ => ("struck-lines", struck_lines(&mut random)),
         };
         let solvers: &[Solver] = match number {
-            16..=18 | 20 | 22 => &[Solver::Riccati, Solver::Stiffness],
+            16..=18 | 20 | 22 | 26 => &[Solver::Riccati, Solver::Stiffness],
             _ if number.is_multiple_of(3) => &[Solver::Modal, Solver::Riccati, Solver::Stiffness],
             _ => &[Solver::Modal, Solver::Riccati],
         };
@@ -200,6 +201,17 @@ fn struck_columns(random: &mut Random) -> Value {
     let mut tree = space_frames(random, false);
     tree["building"][1]["storey_height"] = json!(2.2);
     tree["gap"][0]["floors"] = json!([["2.2 m", 1], ["4.4 m", 2]]);
+    tree
+}
+
+/// Frames at lines that yield, whose columns stand beside floors at other heights.
+fn struck_lines(random: &mut Random) -> Value {
+    let mut tree = frames(random, true);
+    tree["building"][0]["frame"][0]["at"] = json!([[0, 0], [0, 5], [0, 10]]);
+    tree["building"][0]["frame"][0]["density"] = json!(2400);
+    tree["building"][1]["storey_height"] = json!(2.2);
+    tree["gap"][0]["floors"] = json!([["2.2 m", 1], ["4.4 m", 2]]);
+    tree["output"] = json!({"members": true});
     tree
 }
 
