@@ -85,7 +85,7 @@ const KINDS: [Kind; 7] = [
     Kind {
         name: "frame, plan",
         keys: "kind = \"frame\"\nplan = [10, 8]\nmass = \"40 t\"\n",
-        tables: "[[building.frame]]\nat = [[0, 0], [0, 8]]\nspans = [5, 5]\nconcrete = \"C30\"\naxial = \"flexible\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n[[building.frame]]\nname = \"across\"\nat = [[0, 0], [10, 0]]\ndirection = \"y\"\nspans = [4, 4]\nconcrete = \"C30\"\naxial = \"flexible\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n",
+        tables: "[[building.frame]]\nat = [[0, 0], [0, 8]]\nspans = [5, 5]\nconcrete = \"C30\"\ndensity = 2400\naxial = \"flexible\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n[[building.frame]]\nname = \"across\"\nat = [[0, 0], [10, 0]]\ndirection = \"y\"\nspans = [4, 4]\nconcrete = \"C30\"\ndensity = 2400\naxial = \"flexible\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n",
         in_plan: true,
     },
     Kind {

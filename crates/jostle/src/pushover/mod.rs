@@ -573,12 +573,16 @@ impl<'a, E: StepEquations> Push<'a, E> {
                 Stage::Uncracked
             }
         });
-        // Struts have a corner in compression alone.
-        let corner = |side| hysteresis.next_corner(&HysteresisMemory::default(), side);
-        if Side::BOTH
-            .into_iter()
-            .all(|side| corner(side).is_infinite())
-        {
+        // Struts have a corner in compression alone, as have concrete and ground, where it is neither a crack nor yield of a member.
+        let is_strut = !matches!(
+            hysteresis.rule(),
+            HysteresisRule::Concrete(_) | HysteresisRule::Ground
+        );
+        let has_corner = |side: &Side| {
+            let corner = hysteresis.next_corner(&HysteresisMemory::default(), *side);
+            corner.is_finite()
+        };
+        if !(has_corner(&Side::Positive) || is_strut && has_corner(&Side::Negative)) {
             return Stage::Uncracked;
         }
         stages[0].max(stages[1])

@@ -627,7 +627,7 @@ impl BuildingSystem {
         match point.mass > 0.0 {
             true => Ok(point),
             false => Err(format!(
-                "{} has no mass where it would be hit; give its section a mass per length",
+                "{} has no mass where it would be hit; give the building or its frame density, or the section a mass per length",
                 name()
             )),
         }
