@@ -2,7 +2,7 @@
 
 use jostle::history::Storage;
 
-/// Where the histories of runs are kept. Beyond [`IN_MEMORY`] each goes to a temporary file, of which nothing stays behind when the
+/// Where the histories of runs are kept. Beyond `IN_MEMORY` each goes to a temporary file, of which nothing stays behind when the
 /// process is killed. In WebAssembly, which has no files, all are in memory.
 #[cfg(not(target_family = "wasm"))]
 pub const STORAGE: Storage = Storage {

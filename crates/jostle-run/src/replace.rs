@@ -44,7 +44,7 @@ impl FileKind {
         name: "report of jostle",
         marks: &["<html", " – jostle</title>"],
     };
-    /// Excel workbooks of results; see [`PROPERTIES`].
+    /// Excel workbooks of results; see `PROPERTIES`.
     pub const WORKBOOK: Self = Self {
         name: "workbook of jostle",
         marks: &[

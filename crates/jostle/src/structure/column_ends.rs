@@ -29,7 +29,7 @@ pub struct FibreSection {
     pub fibres: Arc<[Fibre]>,
     /// Strains that are judged \[–\].
     pub limits: BTreeMap<FibreLimit, f64>,
-    /// Its fibres among [`StickModel::yielding`], or its rows among those of [`StickModel::surfaces`]; see [`Discretization::springs_of_section`].
+    /// Its fibres among [`field@StickModel::yielding`], or its rows among those of [`StickModel::surfaces`]; see [`Discretization::springs_of_section`].
     pub elements: Range<usize>,
     /// Elongation of its axis over displacements of nodes.
     pub elongation: Row,
