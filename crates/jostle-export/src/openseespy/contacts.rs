@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use jostle::interface::Port;
+use jostle::interface::{LinkElement, Port};
 use jostle::structure::Support;
 use jostle::{LinkLaw, ModelFault};
 
@@ -104,6 +104,33 @@ impl Script<'_> {
         Some(self.tag(building, node))
     }
 
+    /// Tag of the material of a link, with its remark; a fault where OpenSees has none.
+    pub(super) fn link_material(
+        &mut self,
+        link: &LinkElement,
+        turned: bool,
+        path: &str,
+        faults: &mut Vec<ModelFault>,
+    ) -> Option<usize> {
+        match self.materials.link(link, turned) {
+            Ok((material, remark)) => {
+                if let Some(remark) = remark {
+                    self.remark(remark);
+                }
+                Some(material)
+            }
+            Err(rule) => {
+                faults.push(ModelFault {
+                    path: format!("{path}.hinge.rule"),
+                    problem: format!(
+                        "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
+                    ),
+                });
+                None
+            }
+        }
+    }
+
     pub(super) fn add_links(&mut self, faults: &mut Vec<ModelFault>) {
         let system = self.export.system;
         for link in system.model_links() {
@@ -138,21 +165,9 @@ impl Script<'_> {
                 });
                 continue;
             }
-            let (material, remark) = match self.materials.link(link, turned) {
-                Ok(found) => found,
-                Err(rule) => {
-                    faults.push(ModelFault {
-                        path: format!("{path}.hinge.rule"),
-                        problem: format!(
-                            "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
-                        ),
-                    });
-                    continue;
-                }
+            let Some(material) = self.link_material(link, turned, &path, faults) else {
+                continue;
             };
-            if let Some(remark) = remark {
-                self.remark(remark);
-            }
             let tag = self.element();
             let floor = |floor: Option<usize>| {
                 floor.map_or_else(|| "None".to_owned(), |floor| floor.to_string())

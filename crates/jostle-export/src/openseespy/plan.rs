@@ -393,21 +393,9 @@ impl Script<'_> {
                 });
                 continue;
             }
-            let (material, remark) = match self.materials.link(link, false) {
-                Ok(found) => found,
-                Err(rule) => {
-                    faults.push(ModelFault {
-                        path: format!("{path}.hinge.rule"),
-                        problem: format!(
-                            "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
-                        ),
-                    });
-                    continue;
-                }
+            let Some(material) = self.link_material(link, false, &path, faults) else {
+                continue;
             };
-            if let Some(remark) = remark {
-                self.remark(remark);
-            }
             let ends = [0, 1].map(|side| self.contact_point(ports[side].as_ref(), at[side]));
             let tag = self.element();
             let floors = link
