@@ -5,8 +5,8 @@ use std::path::Path;
 
 use jostle::results::summary::BuildingSummary;
 use jostle::{
-    Base, Building, Hinges, MemberRequest, Model, PlanFrame, Solver, Structure, Tier, TierStorey,
-    Tiers,
+    Base, Building, Hinges, Isolation, Isolator, MemberRequest, Model, PlanFrame, Solver,
+    Structure, Tier, TierStorey, Tiers,
 };
 use jostle_io::{Format, Input, TEMPLATE_NAMES, read_model_text, template};
 use jostle_testkit::compare::close;
@@ -30,9 +30,25 @@ fn twice(building: &Building) -> Option<Building> {
         None => Default::default(),
     };
     let base = building.base;
-    if base.isolation.is_some() || base.foundation.is_some() || base.uplift {
+    if base.foundation.is_some() || base.uplift {
         return None;
     }
+    // The same damping ratio under twice the mass.
+    let isolation = match base.isolation {
+        Some(Isolation {
+            isolator: Isolator::Linear { stiffness },
+            mat_mass,
+            ..
+        }) => Some(Isolation {
+            isolator: Isolator::Linear {
+                stiffness: 2.0 * stiffness,
+            },
+            mat_mass: 2.0 * mat_mass,
+            ..base.isolation?
+        }),
+        Some(_) => return None,
+        None => None,
+    };
     let plan = rectangle(0.0, 0.0, frame.spans.iter().sum(), APART);
     let floor = Tier::uniform(SLAB, plan)?;
     let storeys = frame.storey_heights.len();
@@ -41,7 +57,10 @@ fn twice(building: &Building) -> Option<Building> {
         at: [0.0, y],
         direction: [1.0, 0.0],
         lines: Vec::new(),
-        base,
+        base: Base {
+            isolation: None,
+            ..base
+        },
         hinges: hinges.clone(),
         frame: frame.clone(),
     });
@@ -60,6 +79,7 @@ fn twice(building: &Building) -> Option<Building> {
             ..Tiers::default()
         }),
         base: Base {
+            isolation,
             elevation: base.elevation,
             ..Base::default()
         },
@@ -197,7 +217,7 @@ fn compare_all(name: &str, input: &Input) -> usize {
             &what,
             &plane,
             &plan,
-            building.base.horizontal_stiffness.is_some(),
+            building.base.horizontal_stiffness.is_some() || building.base.isolation.is_some(),
         );
         compared += 1;
     }
@@ -248,6 +268,18 @@ fn frames_at_lines_are_plane_frames_whatever_meets_in_them() {
         let text = kept.collect::<Vec<_>>().join("\n") + "\n" + keys;
         assert_eq!(compare_all(keys, &files::sound(&text)), 1, "{keys}");
     }
+}
+
+/// Feet that turn and slide follow a mat that moves.
+#[test]
+fn walls_that_turn_and_slide_stand_on_mats_as_in_one_plane() {
+    let wall = "wall = [{ line = 1, length = \"1.5 m\", thickness = \"250 mm\", hinge = { rule = \"bilinear\", yield = \"2 MN.m\", post_yield = 0.02, length = \"1 m\" }, shear_hinge = { rule = \"bilinear\", yield = \"900 kN\", post_yield = 0.02 } }]\n";
+    let linear = "isolation = { kind = \"linear\", stiffness = \"20 MN/m\", mat_mass = \"60 t\", damping_ratio = 0.1 }";
+    let kept = ON_BEARINGS
+        .lines()
+        .filter(|line| !line.starts_with("isolation"));
+    let text = kept.collect::<Vec<_>>().join("\n") + "\ndensity = 0\n" + linear + "\n" + wall;
+    assert_eq!(compare_all("on a mat", &files::sound(&text)), 1);
 }
 
 /// Whatever the templates say of plane frames.
