@@ -328,11 +328,7 @@ fn of_stiffness(
         .get(view, "eccentricity")
         .and_then(|field| pairs(reader, &field, count));
     let given = match reader.get(view, "stiffness") {
-        Some(field) => match field.entries() {
-            Some(entries) => has_length(reader, &field, entries.len(), Some(count))
-                .map(|()| entries.iter().map(|entry| spring(reader, entry)).collect()),
-            None => Some(vec![spring(reader, &field); count]),
-        },
+        Some(field) => springs(reader, &field, count),
         None => {
             reader.missing(
                 view,
@@ -364,6 +360,19 @@ fn of_stiffness(
 
 /// Stiffness along x, across and in torsion, as far as it is given.
 type Spring = [Option<f64>; 3];
+
+/// One for all storeys, or a list from the ground up.
+fn springs(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    storeys: usize,
+) -> Option<Vec<Option<Spring>>> {
+    match field.entries() {
+        Some(entries) => has_length(reader, field, entries.len(), Some(storeys))
+            .map(|()| entries.iter().map(|entry| spring(reader, entry)).collect()),
+        None => Some(vec![spring(reader, field); storeys]),
+    }
+}
 
 fn spring(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Spring> {
     if field.named_entries().is_none() {
@@ -459,8 +468,9 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
                 None
             }
         };
-        let spring = match reader.get(&view, "stiffness") {
-            Some(field) => spring(reader, &field),
+        let range = range(reader, &view, "storeys", count);
+        let springs = match reader.get(&view, "stiffness") {
+            Some(field) => range.and_then(|[from, to]| springs(reader, &field, to + 1 - from)),
             None => {
                 reader.missing(
                     &view,
@@ -470,14 +480,17 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
                 None
             }
         };
-        let range = range(reader, &view, "storeys", count);
-        if let (Some(at), Some([x, y, _]), Some([from, to])) = (at, spring, range) {
-            let x = x.unwrap_or(0.0);
-            let whole = [x, y.unwrap_or(x)];
-            let springs = yielding_of_element(reader, &view, whole, to + 1 - from);
-            for (index, storey) in (from - 1..to).enumerate() {
-                let mut elastic = whole;
-                for (axis, list) in PlanAxis::BOTH.into_iter().zip(&springs) {
+        let springs: Option<Vec<Spring>> = springs.and_then(|all| all.into_iter().collect());
+        if let (Some(at), Some(springs), Some([from, _])) = (at, springs, range) {
+            let whole = springs.iter().map(|[x, y, _]| {
+                let x = x.unwrap_or(0.0);
+                [x, y.unwrap_or(x)]
+            });
+            let whole: Vec<[f64; 2]> = whole.collect();
+            let hystereses = yielding_of_element(reader, &view, &whole);
+            for (index, whole) in whole.into_iter().enumerate() {
+                let (storey, mut elastic) = (from - 1 + index, whole);
+                for (axis, list) in PlanAxis::BOTH.into_iter().zip(&hystereses) {
                     if let Some(&hysteresis) = list.get(index) {
                         elastic[axis.index()] = 0.0;
                         yielding.push(PlanSpring {
@@ -489,7 +502,7 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
                         });
                     }
                 }
-                if elastic != [0.0; 2] || springs.iter().all(Vec::is_empty) {
+                if elastic != [0.0; 2] || hystereses.iter().all(Vec::is_empty) {
                     of_storey[storey].push((at, elastic));
                 }
             }
@@ -511,11 +524,15 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
 fn yielding_of_element(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    stiffness: [f64; 2],
-    storeys: usize,
+    stiffness: &[[f64; 2]],
 ) -> [Vec<Hysteresis>; 2] {
     let field = reader.get(view, "hinges");
-    let stiffness = stiffness.map(|value| vec![value; storeys]);
+    let stiffness = [0, 1].map(|axis: usize| {
+        stiffness
+            .iter()
+            .map(|storey| storey[axis])
+            .collect::<Vec<f64>>()
+    });
     let read = field.and_then(|field| {
         hinges::read_in_plan(
             reader,

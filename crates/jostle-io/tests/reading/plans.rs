@@ -114,6 +114,27 @@ storeys = [2, 2]
     assert!((lower.stiffness[2] / torsion - 1.0).abs() < 1e-12);
     assert_eq!(lower.stiffness[..2], [40e6, 40e6]);
     assert_eq!(upper.stiffness[..2], [45e6, 45e6]);
+    // A list from the ground up is one element for every storey.
+    let apart = |storey: u32, stiffness: &str| {
+        format!(
+            "[[building.element]]\nat = [\"9 m\", \"4 m\"]\nstiffness = {stiffness}\nstoreys = {storey}\n"
+        )
+    };
+    let (first, second) = ("{ x = \"12 MN/m\", y = \"14 MN/m\" }", "\"8 MN/m\"");
+    let listed = format!(
+        "{text}[[building.element]]\nat = [\"9 m\", \"4 m\"]\nstiffness = [{first}, {second}]\n"
+    );
+    let single = format!("{text}{}{}", apart(1, first), apart(2, second));
+    let [listed, single] = [listed, single].map(|text| read(&text).expect("a sound model"));
+    assert_eq!(tiers(&listed, 0).storeys, tiers(&single, 0).storeys);
+    assert_eq!(tiers(&listed, 0).storeys[0].stiffness[..2], [52e6, 54e6]);
+    let short =
+        format!("{text}[[building.element]]\nat = [\"9 m\", \"4 m\"]\nstiffness = [{first}]\n");
+    let faults = read(&short).expect_err("one of two storeys");
+    assert!(
+        format!("{faults}").contains("element[3].stiffness"),
+        "{faults}"
+    );
 }
 
 #[test]
