@@ -243,15 +243,15 @@ concrete = "C30"
 damping = { alpha = 0.5 }
 "#;
 
-/// Keys of a frame that meet in one column, one beam or one joint. Damping and mass of columns would stand between storeys and the
-/// springs at their feet. No column fails in shear: which of equal ones fails first, rounding decides.
+/// Keys of a frame that meet in one column, one beam or one joint. Damping by stiffness would stand between storeys and the springs at
+/// their feet. No column fails in shear: which of equal ones fails first, rounding decides.
 const TOGETHER: [&str; 8] = [
     "rigid_ends = 1.0\ncolumn_segments = 3\n",
     "infill = [{ bay = 1, modulus = \"3 GPa\", thickness = \"200 mm\", width = \"mainstone\", offset = \"0.4 m\", struts = 3, central_share = 0.5 }]\nrigid_ends = 0.5\ncolumn_segments = 2\n",
     "gravity = true\naxial = \"rigid\"\n",
     "gravity = true\naxial = \"flexible\"\nbrace = [{ bay = 2, direction = \"both\", EA = \"300 MN\" }]\n",
     "hinges = { rule = \"takeda\", column = { cracking = \"60 kN.m\", yield = \"150 kN.m\", post_cracking = 0.3, post_yield = 0.02 }, beam = { cracking = \"40 kN.m\", yield = \"100 kN.m\", post_cracking = 0.3, post_yield = 0.02 } }\nrigid_ends = { beams = \"0.2 m\" }\n",
-    "shear_failure = { strength = \"900 kN\", slope = \"5 MN/m\", residual = 0.2 }\nbeam_segments = 2\ndensity = 0\n",
+    "shear_failure = { strength = \"900 kN\", slope = \"5 MN/m\", residual = 0.2 }\nbeam_segments = 2\n",
     "wall = [{ line = 1, length = \"1.5 m\", thickness = \"250 mm\" }]\njoint = { rotational_stiffness = \"60 MN.m/rad\" }\n",
     "base = { rotational_stiffness = \"200 MN.m/rad\", horizontal_stiffness = \"150 MN/m\" }\n",
 ];
@@ -278,7 +278,7 @@ fn walls_that_turn_and_slide_stand_on_mats_as_in_one_plane() {
     let kept = ON_BEARINGS
         .lines()
         .filter(|line| !line.starts_with("isolation"));
-    let text = kept.collect::<Vec<_>>().join("\n") + "\ndensity = 0\n" + linear + "\n" + wall;
+    let text = kept.collect::<Vec<_>>().join("\n") + "\n" + linear + "\n" + wall;
     assert_eq!(compare_all("on a mat", &files::sound(&text)), 1);
 }
 

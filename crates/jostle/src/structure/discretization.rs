@@ -636,9 +636,12 @@ pub(super) fn discretize_frame(
             }
             on_columns.insert([storey, line], interior.clone());
             for (at, joint) in [from, to].into_iter().enumerate() {
-                if rigid[at] > 0.0 {
+                // What slides has its mass on the side of the joint.
+                if rigid[at] > 0.0 || stick_model.slides.contains(&ends[at]) {
                     let between = rigid[at] * column.line_mass;
                     stick_model.carry_on_axis(joint, ends[at], between);
+                }
+                if rigid[at] > 0.0 {
                     stick_model.rigid_ends.push(RigidEnd {
                         joint,
                         length: rigid[at],
