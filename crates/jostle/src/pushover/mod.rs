@@ -600,22 +600,9 @@ impl<'a, E: StepEquations> Push<'a, E> {
             .iter()
             .map(|floor| from_rest(floor.dof - building.offset))
             .collect();
-        let mut below = building
-            .foot
-            .map_or(0.0, |foot| from_rest(foot - building.offset));
-        let mut moved = vec![0.0; building.offset + displacement.len()];
-        for (dof, value) in moved[building.offset..].iter_mut().enumerate() {
-            *value = from_rest(dof);
-        }
-        let turned = building.rocking(&moved);
-        let storeys = building.floors.iter().zip(&floors);
-        let storey_drifts = storeys
-            .map(|(floor, value)| {
-                let drift = (value - below) / floor.storey_height + turned;
-                below = *value;
-                drift
-            })
-            .collect();
+        let moved: Vec<f64> = (0..displacement.len()).map(from_rest).collect();
+        let storeys = building.storey_drifts(&moved).into_iter();
+        let storey_drifts = storeys.map(|[along, _]| along).collect();
         self.points.push(PushPoint {
             roof,
             base_shear: self.walk.load(),

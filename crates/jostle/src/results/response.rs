@@ -134,7 +134,7 @@ pub(super) fn floor_responses(
     outcome: &Outcome,
 ) -> Vec<FloorResponse> {
     let floors = (1..=building.floors.len()).map(|floor| outcome.peaks.floor(index, floor));
-    let response = |((peaks, residual_drift), weight): ((PeaksOf<'_>, f64), f64)| {
+    let response = |((peaks, [residual_drift, _]), weight): ((PeaksOf<'_>, [f64; 2]), f64)| {
         let (drift, shear) = (peaks.storey_drift(), peaks.storey_shear());
         let vertical = peaks.vertical_displacement();
         FloorResponse {
@@ -144,7 +144,7 @@ pub(super) fn floor_responses(
             ..FloorResponse::of_peaks(peaks)
         }
     };
-    let residual = residual_drifts(building, outcome);
+    let residual = building.storey_drifts(&outcome.state.displacement[building.range()]);
     let weights = building.weights_above();
     floors.zip(residual).zip(weights).map(response).collect()
 }
@@ -172,26 +172,6 @@ pub(super) fn building_response(
         hinges_yielded: hinges.yielded,
         ductility: (hinges.total > 0).then_some(hinges.ductility),
     }
-}
-
-/// Drift ratios of the storeys at the end \[–\].
-fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
-    let u = &outcome.state.displacement;
-    if !building.plan_storeys.is_empty() {
-        let displacement = &u[building.range()];
-        let storeys = building.plan_storeys.iter();
-        return storeys
-            .map(|storey| storey.apart(displacement)[0] / storey.height)
-            .collect();
-    }
-    let mut below = building.foot.map_or(0.0, |dof| u[dof]);
-    let turned = building.rocking(u);
-    let mut drift = |floor: &crate::system::Floor| {
-        let rise = u[floor.dof] - below;
-        below = u[floor.dof];
-        rise / floor.storey_height + turned
-    };
-    building.floors.iter().map(&mut drift).collect()
 }
 
 fn roof_displacement(building: &BuildingSystem, outcome: &Outcome) -> f64 {

@@ -347,14 +347,29 @@ impl BuildingSystem {
         })
     }
 
-    /// Rotation of its foundation, or of its base in plan along x, counter-clockwise; zero where there is none \[rad\].
+    /// Drift ratios of its storeys, along x and across, under displacements of this building: in plan of the line through the centre of
+    /// mass of the floor above. The motion of its base is no drift \[–\].
     #[must_use]
-    pub fn rocking(&self, displacement: &[f64]) -> f64 {
-        if let Some([.., along, _]) = self.base_motions() {
-            return -along.value(&displacement[self.range()]);
+    pub fn storey_drifts(&self, displacement: &[f64]) -> Vec<[f64; 2]> {
+        if !self.plan_storeys.is_empty() {
+            let storeys = self.plan_storeys.iter();
+            return storeys
+                .map(|storey| {
+                    let [along, across, _] = storey.apart(displacement);
+                    [along, across].map(|apart| apart / storey.height)
+                })
+                .collect();
         }
+        let at = |dof: usize| displacement[dof - self.offset];
         let foundation = self.foundation.as_ref();
-        foundation.map_or(0.0, |foundation| displacement[foundation.turning])
+        let turned = foundation.map_or(0.0, |foundation| at(foundation.turning));
+        let mut below = self.foot.map_or(0.0, at);
+        let mut drift = |floor: &Floor| {
+            let above = at(floor.dof);
+            let apart = above - std::mem::replace(&mut below, above);
+            [apart / floor.storey_height + turned, 0.0]
+        };
+        self.floors.iter().map(&mut drift).collect()
     }
 
     /// Lateral modes, longest period first.
