@@ -175,6 +175,28 @@ fn models() -> Vec<(&'static str, String, String)> {
             "[soil]\nshear_wave_velocity = \"180 m/s\"\ndensity = \"1800 kg/m3\"\npoisson_ratio = 0.33\n{building}[[link]]\nbetween = [\"wall\", \"A\"]\nfloors = [[\"wall\", {floor}]]\nstiffness = \"200 MN/m\"\n"
         )
     };
+    let storeys = |stiffness: &str| {
+        let count = stiffness.split(',').count();
+        towers(&format!(
+            "storeys = {count}\nstorey_height = \"3 m\"\nmass = \"40 t\"\nstiffness = [{stiffness}]\n"
+        ))
+    };
+    // Equal storeys along x.
+    let across = |lowest: f64| {
+        let element = |x: u32| {
+            let storey = |y: f64| format!("{{ x = \"100 MN/m\", y = \"{y} MN/m\" }}");
+            format!(
+                "{{ at = [\"{x} m\", \"5 m\"], stiffness = [{}, {}] }}",
+                storey(lowest),
+                storey(100.0)
+            )
+        };
+        towers(&format!(
+            "storeys = 2\nstorey_height = \"3 m\"\nmass = \"200 t\"\nplan = [\"20 m\", \"10 m\"]\nelement = [{}, {}]\n",
+            element(0),
+            element(20)
+        ))
+    };
     let wide = |width: f64| pair(&format!("width = \"{width} mm\"\nrestitution = 0.9\n"));
     vec![
         // T = 2π/(2 √(k/m) sin(π/18)), H = 12 m: twice 0.548 s, and half of 0.3146 s.
@@ -249,6 +271,18 @@ fn models() -> Vec<(&'static str, String, String)> {
             yields("p_delta = false\n"),
         ),
         ("cracking-twice", cracks(1.0), cracks(0.99)),
+        (
+            "soft-storey",
+            storeys("\"71 MN/m\", \"100 MN/m\""),
+            storeys("\"69 MN/m\", \"100 MN/m\""),
+        ),
+        // 85 and 79 % of the mean of the next three, and more than 70 % of the next.
+        (
+            "soft-storey",
+            storeys("\"85 MN/m\", \"120 MN/m\", \"100 MN/m\", \"80 MN/m\""),
+            storeys("\"79 MN/m\", \"110 MN/m\", \"105 MN/m\", \"85 MN/m\""),
+        ),
+        ("soft-storey", across(71.0), across(69.0)),
         ("gap-tolerance", wide(25.1), wide(24.9)),
         ("gap-tolerance", wide(0.0), wide(24.9)),
     ]
@@ -801,6 +835,7 @@ fn too_much(name: &str, input: Input) -> Option<String> {
     let (_, summary) = run(input, false);
     let found = shown(&summary)
         .into_iter()
+        .filter(|finding| !is_meant(name, finding))
         .map(|finding| format!("{} {}", finding.id, finding.text));
     let found: Vec<String> = found.collect();
     (found.len() > 1).then(|| format!("{name}:\n  {}", found.join("\n  ")))
@@ -814,10 +849,18 @@ fn too_much_at_rest(name: &str, input: &Input) -> Option<String> {
     let found = opened.findings(motion.as_ref());
     let found: Vec<String> = found
         .into_iter()
-        .filter(|candidate| candidate.grade >= Grade::Note)
+        .filter(|candidate| candidate.grade >= Grade::Note && !is_meant(name, candidate))
         .map(|finding| format!("{} {}", finding.id, finding.text))
         .collect();
     (found.len() > 1).then(|| format!("{name}, at rest:\n  {}", found.join("\n  ")))
+}
+
+/// Templates and examples of which one storey is soft on purpose.
+const SOFT: [&str; 2] = ["soft-storey", "braced_and_infilled_frames.toml"];
+
+/// Whether a finding is what a template or an example shows on purpose.
+fn is_meant(name: &str, found: &Finding) -> bool {
+    found.name == "soft-storey" && SOFT.contains(&name)
 }
 
 /// Templates of typical pairs.
@@ -847,8 +890,11 @@ fn pairs_pound_and_raise_at_most_one_note() {
             assert!(gap.impact_count > 0, "{name}: {:?}", gap.between);
         }
         assert_eq!(summary.warnings, Vec::<String>::new(), "{name}");
+        let soft = is_found(&summary.checks, "soft-storey");
+        assert_eq!(soft, SOFT.contains(&name), "{name}");
         let found = shown(&summary)
             .into_iter()
+            .filter(|finding| !is_meant(name, finding))
             .map(|finding| finding.text.clone());
         let found: Vec<String> = found.collect();
         if found.len() > 1 {

@@ -13,6 +13,7 @@ mod period;
 mod record;
 mod second_order;
 mod silence;
+mod soft_storey;
 mod support;
 mod table;
 mod yielding;
@@ -95,7 +96,7 @@ impl Known<'_> {
 
 /// A check, or one part of it.
 pub struct Check {
-    /// Identifier: `A1` to `A16` of models, `B1` to `B12` of results.
+    /// Identifier: `A1` to `A17` of models, `B1` to `B12` of results.
     pub id: &'static str,
     /// Name of the part, unique.
     pub name: &'static str,

@@ -2,7 +2,8 @@
 
 use super::{Bound, Check, Limit};
 use super::{
-    contact, damping, drift, gap, impact, mass, period, record, second_order, support, yielding,
+    contact, damping, drift, gap, impact, mass, period, record, second_order, soft_storey, support,
+    yielding,
 };
 use crate::results::summary::Grade::{self, Note, Remark, Warning};
 
@@ -254,6 +255,19 @@ pub const CHECKS: &[Check] = &[
         sources: &[JUDGEMENT],
         remedy: "omit embedment, or omit the links that represent the soil beside it",
         measure: support::soil_twice,
+    },
+    Check {
+        id: "A17",
+        name: "soft-storey",
+        quantity: "stiffness of a storey ÷ 70 % of that of the storey above, or ÷ 80 % of the mean of the three above; stiffness: shear over drift in the first mode of each direction, before anything yields",
+        unit: "–",
+        limits: &[below(1.0, Note)],
+        sources: &[
+            "ASCE/SEI 7-16, table 12.3-2",
+            "GB 50011-2010, table 3.4.3-2",
+        ],
+        remedy: "drifts and damage gather in this storey: look at its columns first, let them yield (hinges), or stiffen it",
+        measure: soft_storey::soft_storey,
     },
     Check {
         id: "B1",

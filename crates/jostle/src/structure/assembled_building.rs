@@ -1,6 +1,6 @@
 //! A building on its own, assembled.
 
-use super::{Discretization, Equations, InnerLink, StoreyForces};
+use super::{Discretization, Equations, InnerLink, StoreyForce, StoreyForces};
 
 /// Masses, elements and matrices of one building, before it stands in a row.
 #[derive(Clone, Debug)]
@@ -51,6 +51,23 @@ impl AssembledBuilding {
         let links =
             links.map(|link| link.of_base() * link.stiffness * link.shortening.value(displacement));
         self.equations.base_shear(displacement) + links.sum::<f64>()
+    }
+
+    /// Storey shears for a displacement, in the order of [`StoreyForces`], as long as nothing has yielded \[N\].
+    #[must_use]
+    pub fn initial_storey_shears(&self, displacement: &[f64]) -> Vec<f64> {
+        let spring = |index: usize| {
+            let spring = &self.equations.springs[index];
+            spring.hysteresis.initial_tangent() * spring.deformation(displacement)
+        };
+        let link = |index: usize| {
+            let link = &self.inner_links[index];
+            link.stiffness * link.shortening.value(displacement)
+        };
+        let mut shears = vec![0.0; self.storeys.len()];
+        let take = |storey: usize, force: StoreyForce| shears[storey] = force.shear;
+        self.storeys.for_each(displacement, spring, link, take);
+        shears
     }
 
     /// Adds links between its floors to its storey forces.
