@@ -135,12 +135,27 @@ impl CaseCache {
     }
 }
 
-/// Whether two models make the same system: what is said about steps and the title makes no difference.
-fn same(a: &Model, b: &Model) -> bool {
-    a.buildings == b.buildings && a.gaps == b.gaps && a.links == b.links
+/// What [`System`] is made of besides gaps; steps and the title make no difference. A new field of a model must be named here.
+fn parts(model: &Model) -> impl PartialEq + '_ {
+    let Model {
+        title: _,
+        buildings,
+        gaps: _,
+        links,
+        walls,
+        soil,
+        analysis,
+    } = model;
+    let followed = (&analysis.members, analysis.link_motion);
+    (buildings, links, walls, soil, followed)
 }
 
-/// Whether two models differ only in the widths of their gaps and in the differences that [`same`] allows.
+/// Whether two models make the same system.
+fn same(a: &Model, b: &Model) -> bool {
+    a.gaps == b.gaps && parts(a) == parts(b)
+}
+
+/// Whether two models make the same system except for the widths of their gaps.
 fn same_except_gaps(a: &Model, b: &Model) -> bool {
     let alike = |(a, b): (&Gap, &Gap)| {
         let widths = b.widths.clone();
@@ -150,8 +165,5 @@ fn same_except_gaps(a: &Model, b: &Model) -> bool {
                 ..a.clone()
             } == *b
     };
-    a.buildings == b.buildings
-        && a.links == b.links
-        && a.gaps.len() == b.gaps.len()
-        && a.gaps.iter().zip(&b.gaps).all(alike)
+    a.gaps.len() == b.gaps.len() && a.gaps.iter().zip(&b.gaps).all(alike) && parts(a) == parts(b)
 }

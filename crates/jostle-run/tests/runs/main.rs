@@ -1,5 +1,6 @@
 //! Runs from model files, and what they report.
 
+mod cases;
 mod checks;
 mod comparison;
 mod damage;
