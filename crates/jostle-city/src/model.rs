@@ -6,7 +6,7 @@ use jostle_io::{Files, MotionSource, RecordOptions, builtin_record};
 
 use crate::answers::Answers;
 use crate::fault::CityError;
-use crate::run::City;
+use crate::run::{City, Job};
 
 /// Tolerance of the model file.
 const TOLERANCE: f64 = 1e-4;
@@ -42,8 +42,8 @@ impl City {
         hit.map(one).collect()
     }
 
-    /// The text of a model file of a pair as it was drawn, under a motion, each counted from 0. The pair stands alone in
-    /// it, also where the run had it in a longer row.
+    /// The text of a model file of a pair as it was drawn, under a motion, each counted from 0, with the other buildings of the row in
+    /// which the city ran it.
     ///
     /// # Errors
     ///
@@ -66,13 +66,16 @@ impl City {
                 "pair {pair} shares a wall in draw {draw} and cannot hit; choose another draw"
             )));
         }
-        let (row, _) = self.pair_row(pair, draw, motion)?;
-        let [left, right] = self.neighbours.pairs[pair].buildings;
-        let told = |at: usize| {
-            let structure = &self.structures[at];
+        let line = self.line_of(pair, draw);
+        let buildings = line.buildings.clone();
+        let job = Job { line, draw, motion };
+        let (row, _) = self.row_alone(job)?;
+        let told = |(number, at): (usize, &usize)| {
+            let structure = &self.structures[*at];
             format!(
-                "{}: {}, {} code, {} storey{}, {:.0} m²",
-                self.inventory.buildings[at].id,
+                "# B{} is {}: {}, {} code, {} storey{}, {:.0} m²\n",
+                number + 1,
+                self.inventory.buildings[*at].id,
                 structure.class.name,
                 structure.class.level.name(),
                 structure.storeys,
@@ -80,21 +83,32 @@ impl City {
                 structure.area
             )
         };
+        let pair_buildings = self.neighbours.pairs[pair].buildings;
+        let in_row = match buildings.len() {
+            2 => String::new(),
+            count => {
+                let places = pair_buildings.map(|building| {
+                    let place = buildings.iter().position(|at| *at == building);
+                    place.unwrap_or_default() + 1
+                });
+                let (first, second) = (places[0].min(places[1]), places[0].max(places[1]));
+                format!(
+                    " The pair is B{first} and B{second} of a row of {count} buildings, which the city ran together."
+                )
+            }
+        };
+        let [left, right] = pair_buildings.map(|at| plain(&self.inventory.buildings[at].id));
+        let all: String = buildings.iter().enumerate().map(told).collect();
         let heading = format!(
-            "# Pair {pair}, draw {draw}: what the inventory does not say was drawn. No building's fate.\n# B1 is {}\n# B2 is {}\ntitle = \"Pair {pair}: {} and {}\"\n\n",
-            told(left),
-            told(right),
-            plain(&self.inventory.buildings[left].id),
-            plain(&self.inventory.buildings[right].id)
+            "# Pair {pair}, draw {draw}: what the inventory does not say was drawn; it is not the fate of a building.{in_row}\n{all}title = \"Pair {pair}: {left} and {right}\"\n\n",
         );
-        Ok(heading + &model(&row, &self.motion_table(pair, motion)?, TOLERANCE))
+        let motion = self.motion_table(buildings[0], motion)?;
+        Ok(heading + &model(&row, &motion, TOLERANCE))
     }
 
-    /// The table `[motion]` of a motion at a pair, without its heading.
-    fn motion_table(&self, pair: usize, motion: usize) -> Result<String, CityError> {
-        let strength = self
-            .shaking()
-            .at(self.neighbours.pairs[pair].buildings[0], motion);
+    /// The table `[motion]` of a motion at a building, without its heading.
+    fn motion_table(&self, building: usize, motion: usize) -> Result<String, CityError> {
+        let strength = self.shaking().at(building, motion);
         let resolved = self.shaking().motion(strength.motion)?;
         let spec = self.shaking().spec(strength.motion);
         let scale = resolved.scale * strength.factor;
@@ -128,7 +142,7 @@ impl City {
         }
         text += &format!("duration = \"{} s\"", resolved.duration);
         if resolved.bearing.is_some() {
-            text += "\n# In the city this motion has a direction in plan, and the pair is shaken by its part along the row.";
+            text += "\n# In the city this motion has a direction in plan, and the row is shaken by its part along it.";
         }
         Ok(text)
     }

@@ -69,10 +69,10 @@ pub struct Done {
 }
 
 /// A row of a draw under a motion.
-struct Job {
-    line: Line,
-    draw: usize,
-    motion: usize,
+pub(crate) struct Job {
+    pub(crate) line: Line,
+    pub(crate) draw: usize,
+    pub(crate) motion: usize,
 }
 
 impl City {
@@ -568,18 +568,24 @@ impl City {
         }
     }
 
-    /// A pair as a row of its own in a draw under a motion, and that motion.
-    pub(crate) fn pair_row(
-        &self,
-        pair: usize,
-        draw: usize,
-        motion: usize,
-    ) -> Result<(Row, Motion), CityError> {
-        let line = Line {
+    /// The row in which a pair stands in a draw.
+    pub(crate) fn line_of(&self, pair: usize, draw: usize) -> Line {
+        let of_pair = |block: &&Block| block.pairs.contains(&pair);
+        let lines = self.blocks.iter().find(of_pair);
+        let lines = lines.map(|block| self.lines(block, draw, |width| width));
+        let mut lines = lines.into_iter().flatten();
+        let alone = || Line {
             buildings: self.neighbours.pairs[pair].buildings.to_vec(),
             pairs: vec![pair],
         };
-        let jobs = [Job { line, draw, motion }];
+        lines
+            .find(|line| line.pairs.contains(&pair))
+            .unwrap_or_else(alone)
+    }
+
+    /// The row of a job, and its motion.
+    pub(crate) fn row_alone(&self, job: Job) -> Result<(Row, Motion), CityError> {
+        let jobs = [job];
         let motions = self.directed(&jobs)?;
         let row = self.row(&jobs[0], &motions, true);
         let motion = motions.own[row.motion].clone();

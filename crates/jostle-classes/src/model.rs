@@ -27,7 +27,7 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
             let all = building
                 .storeys
                 .iter()
-                .map(|storey| format!("\"{} {unit}\"", value(storey)));
+                .map(|storey| format!("\"{} {unit}\"", short(value(storey))));
             format!("[{}]", all.collect::<Vec<_>>().join(", "))
         };
         let _ = write!(
@@ -39,8 +39,8 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
             list(|building| building.mass, "kg"),
             list(|building| building.stiffness, "N/m"),
             list(|building| building.height, "m"),
-            building.alpha,
-            building.beta
+            short(building.alpha),
+            short(building.beta)
         );
         if let Some(hinges) = hinges(
             building,
@@ -75,12 +75,17 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
         let _ = write!(
             text,
             "\n[[gap]]\nbetween = [\"B{left}\", \"B{right}\"]\nwidth = \"{} m\"\n{}\n{law}\n",
-            gap.width,
+            short(gap.width),
             points(gap, &row.buildings[at], &row.buildings[at + 1])
         );
     }
     text += SILENCE;
     text
+}
+
+/// A number with ten digits, without those that rounding made.
+fn short(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// Checks that would question the types themselves.

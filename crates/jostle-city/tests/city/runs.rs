@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use jostle_city::{City, CityError, RunOptions, example_city};
-use jostle_io::{CityFile, Format};
+use jostle_io::{CityFile, Format, read_model_text};
+use jostle_testkit::runs::run_and_summary;
 
 /// A city of some buildings in a folder.
 fn city(folder: &Path, buildings: usize, extra: &str) -> City {
@@ -280,4 +281,45 @@ fn a_wrong_table_of_types_ends_before_anything_is_run() {
     let told = CityFile::parse("city.toml", &text, Format::Toml, folder.path())
         .expect_err("years that fall");
     assert!(told.to_string().contains("rise from low to high"), "{told}");
+}
+
+/// A model of a pair holds the row in which the city ran it, so that both find the same drifts.
+#[test]
+fn models_of_pairs_repeat_what_the_city_ran() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[run]\ndraws = 12\nsample = 0\ntolerance = 0.001\n[gap]\nmedian = \"8 mm\"\n";
+    let city = city(folder.path(), 200, text);
+    let out = folder.path().join("out");
+    run(&city, &out, None).unwrap();
+    let cases = city.cases_for_tests(&out).unwrap();
+    let mut compared = 0;
+    let (mut draw, mut before) = (0, f64::NAN);
+    for [_, _, row, impacts, pair, _, left_drift] in cases {
+        draw = if pair == before { draw + 1 } else { 0 };
+        before = pair;
+        if row < 3.0 || impacts == 0.0 || compared == 12 {
+            continue;
+        }
+        let text = city.model(pair as usize, draw, 0).unwrap();
+        // A model strikes the nearest floors instead.
+        if text.contains("strike columns") {
+            continue;
+        }
+        let model = read_model_text("pair", &text, Format::Toml, folder.path());
+        let input = model.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(input.model.buildings.len(), row as usize);
+        let (_, said) = text.split_once("The pair is B").expect("which of the row");
+        let (number, _) = said.split_once(' ').unwrap();
+        let number: usize = number.parse().unwrap();
+        let motion = input.motion.as_ref().unwrap().resolve().unwrap();
+        let (_, _, summary) = run_and_summary(&input.model, &motion);
+        let sides = [number - 1, number].map(|at| summary.buildings[at].response.drift_peak);
+        let nearest = sides.map(|drift| (drift / left_drift - 1.0).abs());
+        assert!(
+            nearest[0].min(nearest[1]) < 5e-3,
+            "pair {pair}, draw {draw}: {sides:?} and {left_drift}"
+        );
+        compared += 1;
+    }
+    assert!(compared > 4, "{compared}");
 }
