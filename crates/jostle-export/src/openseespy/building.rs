@@ -242,9 +242,7 @@ impl Script<'_> {
                     directions.push((direction, material));
                 }
             }
-            if !directions.is_empty() {
-                self.spring(first, last, &directions, hinge.proportional_damping);
-            }
+            self.spring(first, last, &directions, hinge.proportional_damping);
         }
         Ok(())
     }
@@ -374,15 +372,17 @@ impl Script<'_> {
                 );
             };
             let [first, last] = ends.map(|node| self.tag(index, node));
-            let materials = match part {
-                Part::Elastic | Part::Undamped => self.spring_materials(value, None, 0.0)?,
-                Part::Dashpot => self.spring_materials(0.0, None, value)?,
+            let ([stiffness, dashpot], damped) = match part {
+                Part::Elastic => ([value, 0.0], ProportionalDamping::Initial),
+                Part::Undamped => ([value, 0.0], ProportionalDamping::None),
+                Part::Dashpot => ([0.0, value], ProportionalDamping::None),
             };
+            let materials = self.spring_materials(stiffness, None, dashpot)?;
             let directions: Vec<(usize, usize)> = materials
                 .into_iter()
                 .map(|material| (1, material))
                 .collect();
-            self.spring(first, last, &directions, ProportionalDamping::Initial);
+            self.spring(first, last, &directions, damped);
         }
         Ok(())
     }
@@ -487,9 +487,7 @@ impl Script<'_> {
             .into_iter()
             .map(|material| (1, material))
             .collect();
-        if !directions.is_empty() {
-            self.spring(first, last, &directions, spring.proportional_damping);
-        }
+        self.spring(first, last, &directions, spring.proportional_damping);
         Ok(())
     }
 
@@ -516,6 +514,7 @@ impl Script<'_> {
         Ok(materials)
     }
 
+    /// A spring between two points, by its directions and their materials: nothing without any.
     pub(super) fn spring(
         &mut self,
         first: usize,
@@ -523,6 +522,9 @@ impl Script<'_> {
         directions: &[(usize, usize)],
         damped: ProportionalDamping,
     ) {
+        if directions.is_empty() {
+            return;
+        }
         let tag = self.element();
         let pairs: Vec<String> = directions
             .iter()

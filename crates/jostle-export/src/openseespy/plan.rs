@@ -18,13 +18,14 @@ use jostle::system::BuildingSystem;
 use jostle::{MassDamping, ModelFault, PlanPoint, ProportionalDamping, Structure, TierStorey};
 
 use super::plan_base::HELD;
+use super::plan_frames::slides_on_rocking_base;
 use super::script::{Script, comment, python_bool, rounded, text};
 
 /// Directions of OpenSees: along x, across, rotation.
 pub(super) const DIRECTIONS: [usize; 3] = [1, 2, 6];
 
 /// Mass of a floor, or those along x and across where they differ: columns between floors of a plane frame move by themselves along it.
-fn masses(floor: &Node) -> String {
+pub(super) fn masses(floor: &Node) -> String {
     let [x, y, _] = floor.inertia;
     if x == y {
         format!("{x:?}")
@@ -60,6 +61,12 @@ impl Script<'_> {
             return refuse(
                 "",
                 "has columns that a neighbour can hit between floors, or that struts meet there; the script writes every column of a building with a plan as one element between two joints: list pairs of floors at equal height, and leave offset and struts out",
+            );
+        }
+        if slides_on_rocking_base(&building.discretization.stick_model) {
+            return refuse(
+                ".frame",
+                "has feet that slide (shear_hinge of walls, shear_failure of columns) on a base that rocks: the constraints of the script let a foot follow such a base in all directions or in none; leave them out, or let the base only sway",
             );
         }
         let title = format!("    # {}\n", comment(&building.name));

@@ -11,7 +11,7 @@ use jostle::system::BuildingSystem;
 use jostle::{AcrossBase, PlanPoint, ProportionalDamping, Structure};
 
 use super::foundation::GROUND;
-use super::plan::DIRECTIONS;
+use super::plan::{DIRECTIONS, masses};
 use super::script::{Script, rounded};
 use super::ties::COMPONENTS;
 
@@ -52,11 +52,8 @@ impl Script<'_> {
         let footing = stick_model.nodes[plan_base.footing];
         let tag = self.tag(index, plan_base.footing);
         let [x, y] = plan_base.centre.map(rounded);
-        let [mass, _, polar] = footing.inertia;
-        let _ = writeln!(
-            self.nodes,
-            "    ({tag}, {x:?}, {y:?}, {mass:?}, {polar:?}),"
-        );
+        let (mass, polar) = (masses(&footing), footing.inertia[2]);
+        let _ = writeln!(self.nodes, "    ({tag}, {x:?}, {y:?}, {mass}, {polar:?}),");
         let middle = self.point(index, Some(plan_base.footing), plan_base.middle);
         let ground = self.point(index, None, plan_base.middle);
         let carried: f64 = stick_model.nodes.iter().map(|node| node.mass()).sum();

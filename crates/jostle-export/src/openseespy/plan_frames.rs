@@ -135,11 +135,7 @@ impl Script<'_> {
             );
             let [x, y] = frame.point_at(node.x).map(rounded);
             let [c, s] = frame.direction;
-            let rides = [1, 2].iter().all(|component| {
-                let place = COMPONENTS * number + component;
-                node.y == 0.0 && stick_model.ties.contains_key(&place)
-            });
-            if rides {
+            if rides(stick_model, *number) {
                 let _ = writeln!(self.riding, "    ({on}, {tag}),");
             }
             let holds = [0, 1, 2].map(|component| usize::from(held(*number, component)));
@@ -323,6 +319,26 @@ impl Script<'_> {
 /// Whether a node stands in a frame at a line of a plan.
 fn stands_in_frame(stick_model: &StickModel, node: usize) -> bool {
     (1..Turn::FLOORS).contains(&stick_model.turn(node).elevation)
+}
+
+/// Whether feet of frames slide on a base that rocks.
+pub(super) fn slides_on_rocking_base(stick_model: &StickModel) -> bool {
+    let mut nodes = 0..stick_model.nodes.len();
+    nodes.any(|node| {
+        stands_in_frame(stick_model, node)
+            && rides(stick_model, node)
+            && floor_of(stick_model, node).is_none()
+    })
+}
+
+/// Whether a node at the foot of a frame rises and turns with a base that rocks.
+fn rides(stick_model: &StickModel, node: usize) -> bool {
+    let follows = |component: &usize| {
+        stick_model
+            .ties
+            .contains_key(&(COMPONENTS * node + component))
+    };
+    stick_model.nodes[node].y == 0.0 && [1, 2].iter().all(follows)
 }
 
 /// The floor or mat with which a node moves along the line of its frame. Rigid ends of columns follow the rotation of their joint as well.

@@ -551,3 +551,50 @@ fn panels_fall_by_the_accelerations_of_their_floors() {
     assert_eq!(part[1], "-0.0, 1.0", "{lowest}");
     assert!(part[0].ends_with("0, (1002,"), "{lowest}");
 }
+
+/// Columns with a point between floors move there along their frame only: across, the footing has the lower half of them, along a quarter.
+#[test]
+fn footings_have_the_mass_of_columns_of_each_direction() {
+    let text = r#"
+[motion]
+record = "el-centro-1940-ns"
+[[building]]
+name = "A"
+kind = "frame"
+storeys = 1
+storey_height = "3.5 m"
+plan = ["6 m", "6 m"]
+mass = "50 t"
+stiffness = { x = "0 N/m", y = "80 MN/m", torsion = "3 GN.m/rad" }
+base = { horizontal_stiffness = "300 MN/m", mass = "30 t" }
+frame = [{ at = [["0 m", "0 m"], ["0 m", "6 m"]], spans = ["6 m"], column = { width = "0.5 m", depth = "0.5 m" }, beam = { width = "0.3 m", depth = "0.5 m" }, elastic_modulus = "30 GPa", density = "2500 kg/m3", column_segments = 2 }]
+"#;
+    let exported = export(&model(text)).expect("it can be exported");
+    let columns = 4.0 * 0.25 * 2500.0 * 3.5;
+    let [along, across] = [0.25, 0.5].map(|share| 30e3 + share * columns);
+    let nodes = table(&exported.text, "NODES");
+    let found = nodes.iter().any(|row| {
+        let masses = row[3..].join(", ");
+        masses.contains(&format!("({along:?}, {across:?})"))
+    });
+    assert!(found, "{nodes:?}");
+}
+
+/// A foot that slides cannot follow a base that rocks in the other directions alone.
+#[test]
+fn feet_that_slide_on_a_base_that_rocks_are_refused() {
+    let text = |base: &str| {
+        format!(
+            "[motion]\nrecord = \"el-centro-1940-ns\"\n[[building]]\nname = \"A\"\nkind = \"frame\"\nstoreys = 1\nstorey_height = \"3.5 m\"\nplan = [\"6 m\", \"6 m\"]\nmass = \"50 t\"\nstiffness = {{ x = \"0 N/m\", y = \"80 MN/m\", torsion = \"3 GN.m/rad\" }}\nbase = {{ {base} }}\nframe = [{{ at = [[\"0 m\", \"0 m\"], [\"0 m\", \"6 m\"]], spans = [\"6 m\"], column = {{ width = \"0.5 m\", depth = \"0.5 m\" }}, beam = {{ width = \"0.3 m\", depth = \"0.5 m\" }}, elastic_modulus = \"30 GPa\", wall = [{{ line = 1, length = \"1.5 m\", thickness = \"0.25 m\", shear_hinge = {{ rule = \"bilinear\", yield = \"900 kN\", post_yield = 0.02 }} }}] }}]\n"
+        )
+    };
+    assert!(
+        export(&model(&text(
+            "horizontal_stiffness = \"300 MN/m\", mass = \"30 t\""
+        )))
+        .is_ok()
+    );
+    let faults = export(&model(&text("rotational_stiffness = \"30 GN.m/rad\"")));
+    let faults = faults.expect_err("its feet slide");
+    assert!(faults[0].problem.contains("feet that slide"), "{faults:?}");
+}
