@@ -58,8 +58,8 @@ pub fn building_columns(summary: &Summary) -> Vec<(String, Values)> {
 #[must_use]
 pub fn floor_columns(summary: &Summary) -> Vec<(String, Values)> {
     let buildings = || summary.buildings.iter();
-    let floors = || buildings().flat_map(|building| &building.floors);
-    let names = buildings().flat_map(|building| building.floors.iter().map(|_| &building.name));
+    let floors = || buildings().flat_map(|building| building.floors.with_mat());
+    let names = buildings().flat_map(|building| building.floors.with_mat().map(|_| &building.name));
     let mut columns = vec![(
         "building".to_owned(),
         Values::Text(names.cloned().collect()),

@@ -17,6 +17,13 @@ pub struct Floors {
     pub above: Vec<FloorSummary>,
 }
 
+impl Floors {
+    /// The mat, if there is one, and the floors above.
+    pub fn with_mat(&self) -> impl Iterator<Item = &FloorSummary> {
+        self.mat.iter().chain(&self.above)
+    }
+}
+
 impl Deref for Floors {
     type Target = Vec<FloorSummary>;
 
@@ -63,7 +70,7 @@ impl<'a> IntoIterator for &'a Floors {
 
 impl Serialize for Floors {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.mat.iter().chain(&self.above))
+        serializer.collect_seq(self.with_mat())
     }
 }
 
