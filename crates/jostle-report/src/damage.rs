@@ -50,15 +50,13 @@ pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage
         let is_hinge = |spring: &&SpringSummary| !is_brace(spring);
         let list = || hinges.list.iter().filter(is_hinge);
         let yields = || list().filter_map(|hinge| hinge.yielded_s);
-        let (cracked, yielded, first_s, ductility) = if braces == 0 {
-            let first = hinges.first_yield_s;
-            (hinges.cracked, hinges.yielded, first, hinges.ductility)
+        let (cracked, yielded, first_s) = if braces == 0 {
+            (hinges.cracked, hinges.yielded, hinges.first_yield_s)
         } else {
             let cracked = list().filter(|hinge| hinge.cracked_s.is_some()).count();
-            let ductility = list().map(|hinge| hinge.ductility).fold(0.0, f64::max);
-            let first = yields().min_by(f64::total_cmp);
-            (cracked, yields().count(), first, ductility)
+            (cracked, yields().count(), yields().min_by(f64::total_cmp))
         };
+        let ductility = hinges.ductility;
         found.push(Damage {
             name: yielded_word(&list().filter_map(|hinge| hinge.at).collect::<Vec<_>>()),
             count: [yielded, hinges.total - braces],

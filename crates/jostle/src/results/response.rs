@@ -28,7 +28,7 @@ pub struct BuildingResponse {
     pub hinges_cracked: usize,
     /// Those that yielded.
     pub hinges_yielded: usize,
-    /// Greatest ductility of any hinge, or storey of a shear building; `None` if nothing can yield \[–\].
+    /// Greatest ductility of any hinge, or storey of a shear building; `None` if none can yield, as where only braces do \[–\].
     pub ductility: Option<f64>,
 }
 
@@ -44,7 +44,7 @@ impl BuildingResponse {
         Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end, including remaining vibration", |b| b.residual_roof_displacement_m).in_study().compared(),
         Quantity::<Self>::whole("hinges_cracked", "hinges that cracked", |b| b.hinges_cracked).in_study().compared().if_yielding(),
         Quantity::<Self>::whole("hinges_yielded", "hinges that yielded", |b| b.hinges_yielded).in_study().compared().if_yielding(),
-        Quantity::<Self>::optional("ductility", Unit::NONE, "greatest ductility of any hinge; absent if nothing can yield", |b| b.ductility).in_study().compared().if_yielding(),
+        Quantity::<Self>::optional("ductility", Unit::NONE, "greatest ductility of any hinge, or storey of a shear building; absent if none can yield, as where only braces do", |b| b.ductility).in_study().compared().if_yielding(),
     ];
 }
 
@@ -158,6 +158,7 @@ pub(super) fn building_response(
     hinges: &HingeSummary,
 ) -> BuildingResponse {
     let greatest = |of: fn(&FloorResponse) -> f64| floors.iter().map(of).fold(0.0, f64::max);
+    let mut places = building.discretization.spring_places.iter();
     BuildingResponse {
         drift_peak: greatest(|floor| floor.storey_drift_peak),
         total_acceleration_peak_m_s2: greatest(|floor| floor.total_acceleration_peak_m_s2),
@@ -170,7 +171,9 @@ pub(super) fn building_response(
         residual_roof_displacement_m: roof_displacement(building, outcome),
         hinges_cracked: hinges.cracked,
         hinges_yielded: hinges.yielded,
-        ductility: (hinges.total > 0).then_some(hinges.ductility),
+        ductility: places
+            .any(|place| place.is_hinge() && !place.is_brace())
+            .then_some(hinges.ductility),
     }
 }
 

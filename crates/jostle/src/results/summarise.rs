@@ -246,7 +246,12 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
         }),
         yielded: all.iter().filter(|s| s.yielded_s.is_some()).count(),
         first_yield_s: None,
-        ductility: all.iter().map(|s| s.ductility).fold(0.0, f64::max),
+        // Braces shorten and lengthen many times as far as they do when they buckle or yield.
+        ductility: all
+            .iter()
+            .filter(|s| !s.is_brace())
+            .map(|s| s.ductility)
+            .fold(0.0, f64::max),
         dissipated_j: all.iter().fold(0.0, |sum, s| sum + s.dissipated_j),
         list: all.into_iter().filter(|s| s.cracked_s.is_some()).collect(),
     };

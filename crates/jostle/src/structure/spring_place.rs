@@ -421,6 +421,12 @@ impl SpringPlace {
         !(self.is_isolation() || self.is_shear() || strut || other)
     }
 
+    /// Whether it is a brace.
+    #[must_use]
+    pub fn is_brace(&self) -> bool {
+        matches!(self, Self::Diagonal { place, .. } if place.kind == DiagonalKind::Brace)
+    }
+
     /// Shear of a wall or a coupling beam of a building that is one frame.
     pub(crate) fn sliding(member: MemberPlace) -> Self {
         Self::Sliding {

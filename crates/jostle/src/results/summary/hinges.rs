@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::model::DiagonalKind;
 use crate::quantity::{Quantity, Unit};
 use crate::structure::SpringPlace;
 
@@ -20,7 +19,7 @@ pub struct HingeSummary {
     pub yielded: usize,
     /// When the first one yielded; `None` if none did \[s\].
     pub first_yield_s: Option<f64>,
-    /// Greatest ductility of any of them \[–\].
+    /// Greatest ductility of any of them that is no brace \[–\].
     pub ductility: f64,
     /// Energy that they dissipated \[J\].
     pub dissipated_j: f64,
@@ -36,7 +35,7 @@ impl HingeSummary {
         Quantity::<Self>::whole("cracked", "number of these that cracked", |h| h.cracked),
         Quantity::<Self>::whole("yielded", "number of these that yielded", |h| h.yielded),
         Quantity::<Self>::optional("first_yield_s", Unit::S, "time of first yield", |h| h.first_yield_s),
-        Quantity::<Self>::real("ductility", Unit::NONE, "greatest ductility of any of these", |h| h.ductility),
+        Quantity::<Self>::real("ductility", Unit::NONE, "greatest ductility of any of these, braces left out", |h| h.ductility),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated by all of these", |h| h.dissipated_j),
     ];
 }
@@ -73,7 +72,7 @@ impl SpringSummary {
     /// Whether it is a brace.
     #[must_use]
     pub fn is_brace(&self) -> bool {
-        matches!(self.at, Some(SpringPlace::Diagonal { place, .. }) if place.kind == DiagonalKind::Brace)
+        self.at.as_ref().is_some_and(SpringPlace::is_brace)
     }
 }
 
