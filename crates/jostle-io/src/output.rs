@@ -92,7 +92,10 @@ pub(crate) fn write_atomically_by(
     contents: impl FnOnce(&mut File) -> std::io::Result<()>,
 ) -> Result<(), OutputError> {
     let write = || -> std::io::Result<()> {
+        let elsewhere = std::env::temp_dir();
         let folder = match path.parent() {
+            // Beside a device there may be no room for files.
+            _ if is_stream(path) => &elsewhere,
             Some(parent) if parent != Path::new("") => parent,
             _ => Path::new("."),
         };
@@ -127,7 +130,17 @@ pub fn put_in_place(file: &Path, path: &Path) -> Result<(), OutputError> {
     })
 }
 
+/// Whether a path is that of a device or a pipe, into which a file is written and which it never replaces.
+fn is_stream(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
 fn persist(mut file: tempfile::TempPath, path: &Path) -> std::io::Result<()> {
+    if is_stream(path) {
+        let mut stream = std::fs::OpenOptions::new().write(true).open(path)?;
+        std::io::copy(&mut File::open(&file)?, &mut stream)?;
+        return stream.flush();
+    }
     let mut left = TRIES.0;
     loop {
         left -= 1;

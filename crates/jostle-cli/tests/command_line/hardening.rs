@@ -625,3 +625,34 @@ fn bits_do_not_depend_on_the_processor() {
     });
     assert!(usual == masked);
 }
+
+/// A file that is to go into a pipe or a device goes there, and does not take its place.
+#[cfg(unix)]
+#[test]
+fn pipes_are_written_into_and_never_replaced() {
+    let place = folder();
+    write(place.path(), "m.toml", SMALL);
+    let output = jostle(
+        place.path(),
+        &[
+            "export",
+            "m.toml",
+            "--to",
+            "openseespy",
+            "-o",
+            "/dev/stdout",
+        ],
+    );
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(printed(&output).contains("import openseespy"));
+    // Root could replace it.
+    use std::os::unix::fs::FileTypeExt;
+    let null = std::fs::metadata("/dev/null").expect("there is one");
+    let output = jostle(
+        place.path(),
+        &["export", "m.toml", "--to", "openseespy", "-o", "/dev/null"],
+    );
+    assert!(output.status.success(), "{}", complained(&output));
+    let still = std::fs::metadata("/dev/null").expect("there is one");
+    assert!(null.file_type().is_char_device() && still.file_type().is_char_device());
+}
