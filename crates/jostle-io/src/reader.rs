@@ -237,7 +237,9 @@ impl<'s> Reader<'s> {
         for entry in &table.entries {
             if keys_of(sections).all(|key| key.name != entry.key) {
                 let shown = shorten(&entry.key);
-                let remedy = match of_building(&entry.key, sections, &field.path) {
+                let other = counted_otherwise(&entry.key, sections);
+                let remedy = match other.or_else(|| of_building(&entry.key, sections, &field.path))
+                {
                     Some(remedy) => remedy,
                     None => suggest(&entry.key, sections),
                 };
@@ -583,6 +585,19 @@ impl<'s> Reader<'s> {
         }
         None
     }
+}
+
+/// Columns stand at lines and in storeys, beams in bays and on floors: the key of the other, where a table has it.
+fn counted_otherwise(key: &str, sections: &'static [Section]) -> Option<String> {
+    const PAIRS: [[&str; 2]; 4] = [
+        ["storeys", "floors"],
+        ["floors", "storeys"],
+        ["line", "bay"],
+        ["bay", "line"],
+    ];
+    let [_, other] = PAIRS.iter().find(|[name, _]| *name == key)?;
+    let has_other = keys_of(sections).any(|known| known.name == *other);
+    has_other.then(|| format!("write {other} instead of {key}"))
 }
 
 /// What to do with a key of a building in one of its tables, such as `[[building.infill]]`: below such a header, keys are those of the

@@ -819,3 +819,23 @@ fn keys_of_the_building_below_a_header_are_sent_back() {
         assert!(!told.contains("did you mean"), "{told}");
     }
 }
+
+/// Columns stand in storeys and at lines, beams on floors and in bays.
+#[test]
+fn places_of_the_other_members_are_named() {
+    let base = "[[building]]\nname = \"A\"\nstoreys = 2\nstorey_height = \"3 m\"\nspans = [\"5 m\"]\nconcrete = \"C30\"\nbeam_mass = \"2 t/m\"\n";
+    let side = "width = \"0.4 m\", depth = \"0.5 m\"";
+    for (key, other) in [("storeys", "floors"), ("line", "bay")] {
+        let wrong_beam = format!(
+            "{base}column = {{ {side} }}\nbeam = [{{ {side} }}, {{ {side}, {key} = 1 }}]\n"
+        );
+        let wrong_column = format!(
+            "{base}beam = {{ {side} }}\ncolumn = [{{ {side} }}, {{ {side}, {other} = 1 }}]\n"
+        );
+        for (text, found, wanted) in [(wrong_beam, key, other), (wrong_column, other, key)] {
+            let said = refusal(&text);
+            let remedy = format!("write {wanted} instead of {found}");
+            assert!(said.contains(&remedy), "{said}");
+        }
+    }
+}
