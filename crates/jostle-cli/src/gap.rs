@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
+use jostle::Building;
 use jostle::separation::{Code, CodeInputs, JointSystem};
 use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_io::{Dimension, parse_option};
@@ -100,6 +101,17 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         title.clone_from(&opened.input.model.title);
         for warning in &opened.input.warnings {
             note(&mut notes, &opened.input.with_line(warning));
+        }
+        let bounded = |building: &&Building| {
+            let isolation = building.base.isolation.as_ref();
+            isolation.is_some_and(|isolation| isolation.bounds.is_some())
+        };
+        if let Some(building) = opened.input.model.buildings.iter().find(bounded) {
+            let warning = format!(
+                "\"{}\": the gaps needed are those with nominal bearings; at the bounds of the bearings they can be wider: see jostle run",
+                building.name
+            );
+            note(&mut notes, &warning);
         }
         let inputs = opened.input.each_record();
         let of = inputs.len() * records.len();

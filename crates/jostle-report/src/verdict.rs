@@ -1,6 +1,7 @@
 //! The verdict of a run in one sentence.
 
 use jostle::judgement::OUTSIDE_DRIFT;
+use jostle::results::isolation_bounds::{BoundedGap, IsolationBounds};
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, GapSummary, ImpactSummary, Summary,
 };
@@ -11,10 +12,31 @@ use crate::message;
 /// The headline of the report: what happened, in a sentence or two.
 #[must_use]
 pub fn verdict(summary: &Summary) -> String {
-    match summary.isolation_bounds {
-        Some(_) => message::with_nominal_bearings(happened(summary)),
+    match &summary.isolation_bounds {
+        Some(bounds) => {
+            let nominal = message::with_nominal_bearings(happened(summary));
+            match at_bounds(summary, bounds) {
+                Some(more) => format!("{nominal} {more}"),
+                None => nominal,
+            }
+        }
         None => happened(summary),
     }
+}
+
+/// Gaps that close at the bounds of the bearings alone.
+fn at_bounds(summary: &Summary, bounds: &IsolationBounds) -> Option<String> {
+    let gaps = summary.gaps.iter().zip(&bounds.gaps);
+    let more =
+        gaps.filter(|(gap, bounded)| gap.impact_count == 0 && bounded.impact_count.envelope > 0.0);
+    let more: Vec<&BoundedGap> = more.map(|(_, bounded)| bounded).collect();
+    let force = |gap: &BoundedGap| gap.peak_force_n.envelope;
+    let hardest = more.iter().max_by(|a, b| force(a).total_cmp(&force(b)))?;
+    let ([left, right], force) = (&hardest.between, format::force(force(hardest)));
+    Some(match more.len() {
+        1 => message::at_the_bounds_of_the_bearings(left, right, force),
+        count => message::at_the_bounds_of_the_bearings_gaps(count, left, right, force),
+    })
 }
 
 /// What happened in the run of the model itself.
