@@ -19,6 +19,8 @@ use crate::study::{Study, at_rest};
 const DRAWN: [&str; 3] = ["ABS", "SRSS", "DDC"];
 /// Greatest closing: that of a case without an impact is the gap needed under its motion.
 const CLOSING: &str = "closing_peak_m";
+/// Greatest closing of a gap in the run without contact: the gap needed, if the study has it.
+const WITHOUT_CONTACT: &str = ".closing_without_contact_m";
 /// Groups of cases that are drawn at most, one for each colour.
 const MOST_GROUPS: usize = 7;
 /// Intensities whose gap the head of the page names at most.
@@ -48,7 +50,17 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
             })
         })
     });
-    all.cloned().chain([CLOSING.to_owned()]).collect()
+    all.cloned()
+        .chain([CLOSING.to_owned()])
+        .chain(without_contact(study))
+        .collect()
+}
+
+/// The gap needed as a column of a study of one gap.
+fn without_contact(study: &Study) -> Option<String> {
+    let names = study.layout.results.iter().map(|column| &column.name);
+    let mut found = names.filter(|name| name.ends_with(WITHOUT_CONTACT));
+    found.next().filter(|_| found.next().is_none()).cloned()
 }
 
 impl Results<'_> {
@@ -67,6 +79,9 @@ impl Results<'_> {
         let (axis, size) = self.input_axis(up);
         let impacts = self.table.column("impact_count").to_vec();
         let closings = self.table.column(CLOSING).to_vec();
+        let free_closings = without_contact(self.study)
+            .map(|name| self.table.column(&name).to_vec())
+            .unwrap_or_default();
         let groups = self.grouped(&self.others(&[right, up]));
         let levels = self.numbers(up);
         let widest = self.numbers(right).last().copied().unwrap_or(0.0);
@@ -106,6 +121,9 @@ impl Results<'_> {
                 let closing = apart.clone().map(|case| closings.get(*case).copied()?);
                 let closing = closing.collect::<Option<Vec<f64>>>();
                 let closing = closing.filter(|all| no_impact && is_one_width && !all.is_empty());
+                let without = cases().map(|case| free_closings.get(*case).copied()?);
+                let without = without.collect::<Option<Vec<f64>>>();
+                let closing = without.filter(|all| !all.is_empty()).or(closing);
                 let exact = closing.map(|all| all.into_iter().fold(0.0, f64::max));
                 let free = exact.unwrap_or(free);
                 bracketed |= exact.is_none();
