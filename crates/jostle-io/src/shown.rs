@@ -162,6 +162,17 @@ pub const ALL_SHOWN: &[Shown] = &[
     GROUND_DISPLACEMENT,
 ];
 
+/// The constant of a dashpot whose force grows with a power of speed \[N·(s/m)^exponent\], and its unit.
+#[must_use]
+pub fn power_dashpot(si: f64, exponent: f64) -> (f64, String) {
+    let (force, length) = match units() {
+        Units::Si => (NEWTON, HEIGHT),
+        Units::Us => (FORCE, LENGTH),
+    };
+    let name = format!("{}·(s/{})^{exponent}", force.name(), length.name());
+    (force.of(si) * libm::pow(length.size(), exponent), name)
+}
+
 impl Shown {
     /// The quantity whose SI unit has this name.
     #[must_use]

@@ -157,12 +157,7 @@ pub(crate) fn dashpot(si: f64, exponent: f64) -> (f64, String) {
     if exponent == 1.0 {
         return (DASHPOT.of(si), DASHPOT.name().to_owned());
     }
-    let (force, length) = match units() {
-        Units::Si => (NEWTON, HEIGHT),
-        Units::Us => (FORCE, LENGTH),
-    };
-    let name = format!("{}·(s/{})^{exponent}", force.name(), length.name());
-    (force.of(si) * length.size().powf(exponent), name)
+    power_dashpot(si, exponent)
 }
 
 /// The same as a text.

@@ -66,7 +66,8 @@ fn verdict(surveys: &[SectionSurvey]) -> Option<String> {
             .sides()
             .iter()
             .map(|side| ends.sides[side.index()].yielding);
-        sides.min_by(|a, b| a.force.total_cmp(&b.force))
+        let least = sides.min_by(|a, b| a.force.total_cmp(&b.force));
+        least.filter(|least| least.force > 0.0)
     };
     let moment = |corner: &Corner| in_unit(MOMENT, corner.force, 0);
     if let [survey] = surveys {
@@ -140,12 +141,16 @@ fn row(survey: &SectionSurvey, name: &str, ends: &EndCurve, side: Side) -> Marku
     html! {
         tr {
             td { (name) (side_name(survey, side)) }
-            td { (in_unit(MOMENT, end.cracking.force, 1)) }
-            td { (fixed(end.cracking.deformation * 1e3, 3)) }
-            td { (in_unit(MOMENT, end.yielding.force, 1)) }
-            td { (fixed(end.yielding.deformation * 1e3, 3)) }
-            td { (fixed(end.yielding.force / end.yielding.deformation / gross, 3)) }
-            td { (fixed(end.post_yield / gross, 4)) }
+            @if end.yielding.force > 0.0 {
+                td { (in_unit(MOMENT, end.cracking.force, 1)) }
+                td { (fixed(end.cracking.deformation * 1e3, 3)) }
+                td { (in_unit(MOMENT, end.yielding.force, 1)) }
+                td { (fixed(end.yielding.deformation * 1e3, 3)) }
+                td { (fixed(end.yielding.force / end.yielding.deformation / gross, 3)) }
+                td { (fixed(end.post_yield / gross, 4)) }
+            } @else {
+                td colspan="6" { (message::axial_load_exceeds_the_strength()) }
+            }
         }
     }
 }

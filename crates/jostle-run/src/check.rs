@@ -24,7 +24,9 @@ use frames::{axial_of_columns, diagonals, members, rigid_ends, space_walls, wall
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
 use jostle_io::in_shown_units;
-use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH, MASS, MOMENT, SPEED, by_model};
+use jostle_io::shown::{
+    FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH, MASS, MOMENT, SPEED, by_model, power_dashpot,
+};
 use jostle_report::{SitePlace, site_svg};
 use losses::losses;
 use motion::{describe_grounds, describe_work};
@@ -619,7 +621,13 @@ fn parameters(link: &jostle::Link) -> String {
     }
     let dashpot = match exponent == 1.0 {
         true => prefixed(link.damping, "N·s/m", 4),
-        false => format!("{:.3e} N·(s/m)^{exponent}", link.damping),
+        false => {
+            let (value, unit) = power_dashpot(link.damping, exponent);
+            match value < 1e5 {
+                true => format!("{value:.4} {unit}"),
+                false => format!("{value:.3e} {unit}"),
+            }
+        }
     };
     let springs = [
         (stiffness, prefixed(stiffness, "N/m", 4)),

@@ -330,6 +330,12 @@ fn row(
         yielding,
         post_yield,
     } = ends.sides[side.index()];
+    if yielding.force <= 0.0 {
+        return writeln!(
+            text,
+            "  {name:10} does not yield in bending: the axial load alone exceeds its strength"
+        );
+    }
     let gross = survey.gross_stiffness();
     writeln!(
         text,
@@ -363,7 +369,8 @@ fn as_json(survey: &SectionSurvey) -> Value {
                 "cracking_rotation_rad": cracking.deformation,
                 "yield_moment_nm": yielding.force,
                 "yield_rotation_rad": yielding.deformation,
-                "secant_ratio": yielding.force / yielding.deformation / survey.gross_stiffness(),
+                "secant_ratio": (yielding.force > 0.0)
+                    .then(|| yielding.force / yielding.deformation / survey.gross_stiffness()),
                 "post_yield_stiffness_nm_rad": post_yield,
             })
         };

@@ -55,6 +55,28 @@ fn a_section_is_described_by_both_methods() {
     assert!(!page.contains("NaN") && !page.contains("http://") && !page.contains("https://"));
 }
 
+/// More than concrete and bars carry together: there is no yield moment, and no ratio of it.
+#[test]
+fn a_section_does_not_yield_beyond_its_axial_strength() {
+    let folder = folder();
+    let load = ["--axial-load", "20000kN", "--html", "page.html"];
+    let output = jostle(folder.path(), &[&COLUMN[..], &load[..]].concat());
+    assert!(output.status.success(), "{}", complained(&output));
+    let text = printed(&output);
+    let page = std::fs::read_to_string(folder.path().join("page.html")).expect("the page");
+    for shown in [&text, &page] {
+        assert!(shown.contains("exceeds its strength"), "{shown}");
+        assert!(!shown.contains("NaN"), "{shown}");
+    }
+    let output = jostle(
+        folder.path(),
+        &[&COLUMN[..], &["--axial-load", "20000kN", "--json"]].concat(),
+    );
+    let value: Value = serde_json::from_str(&printed(&output)).expect("nothing but JSON");
+    let ratio = value.pointer("/sections/0/formula/positive/secant_ratio");
+    assert_eq!(ratio, Some(&Value::Null));
+}
+
 #[test]
 fn json_has_both_sides_and_the_curve() {
     let folder = folder();

@@ -7,6 +7,8 @@ use crate::common::{complained, folder, jostle, printed};
 
 /// Names of SI units that texts show.
 const SI: &[&str] = &[
+    "N·",
+    "kN·",
     "kN",
     "MN",
     "mm",

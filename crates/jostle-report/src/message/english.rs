@@ -583,6 +583,8 @@ messages! {
     results_are_outside(drifts, limit) = "{drifts}. Beyond {limit}, real members lose strength and displacements are no longer small; this model includes neither effect. Results in grey show that the building is badly damaged or lost, but not how badly.";
     until_the_run_ended = "Until the run ended:";
     with_nominal_bearings(verdict) = "With nominal bearings: {verdict}";
+    at_the_bounds_of_the_bearings(left, right, force) = "At the bounds of the bearings, {left} and {right} collide with up to {force}.";
+    at_the_bounds_of_the_bearings_gaps(count, left, right, force) = "At the bounds of the bearings, {count} more gaps close; {left} and {right} collide with up to {force}.";
     drift_of(name, drift) = "{name}: drift {drift}";
 
     // bounds
@@ -1415,6 +1417,7 @@ messages! {
     impacts_at_every_intensity(name, value) = "The buildings touch at every {name} of the study, {value} and more.";
     one_law_rebounds(law, force, restitution) = "{law}: peak force {force}; the masses rebound with {restitution} of their closing speed.";
     laws_differ(count, force, most_force, restitution, most_restitution) = "Peak force of {count} laws {force} to {most_force}; the masses rebound with {restitution} to {most_restitution} of their closing speed.";
+    axial_load_exceeds_the_strength = "does not yield in bending: the axial load alone exceeds its strength";
     section_yields(name, moment, rotation) = "{name} yields at {moment} {kN·m}, an end rotation of {rotation} mrad.";
     sections_yield(count, least, most) = "{count} sections yield at {least} to {most} {kN·m}.";
     riccati_keeps(digits, step) = "The Riccati recursion keeps at least {digits} of 16 digits at steps down to {step} ms.";
