@@ -2,12 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use jostle::statics::{STANDARD_GRAVITY, compressions, compressions_of_members};
-use jostle::structure::{Discretization, MemberPlace};
-use jostle::system::BuildingSystem;
-use jostle::{
-    Building, Frame, FramePlace, PlanAxis, SpaceFrame, SpaceMember, SpacePlace, Structure,
-};
+use jostle::statics::compressions_of_members;
+use jostle::{Building, Frame, PlanAxis, SpaceFrame, SpaceMember, SpacePlace, Structure};
 use jostle_section::capacity::{ShearRule, SteelMember};
 use jostle_section::formula::Member;
 use jostle_section::{
@@ -437,13 +433,20 @@ pub(super) fn members(
     let Structure::Frame(frame) = &building.structure else {
         return Ok(KnownMembers::default());
     };
-    let carried = if reinforced.asks_gravity() {
-        column_loads(building)?
-    } else {
-        Vec::new()
-    };
-    let load = |_: &str, [storey, place]: FramePlace| carried[storey][place];
-    Ok(of_frame(index, "", frame, reinforced, load))
+    let carried = carried(building, reinforced.asks_gravity())?;
+    Ok(of_frame(index, "", frame, reinforced, &carried))
+}
+
+/// Compression of the members of a building by name, empty where it is not asked for \[N\].
+///
+/// # Errors
+/// A text when the building cannot stand.
+fn carried(building: &Building, is_asked: bool) -> Result<BTreeMap<String, f64>, String> {
+    if !is_asked {
+        return Ok(BTreeMap::new());
+    }
+    let carried = compressions_of_members(building).map_err(|_| DOES_NOT_STAND.to_owned())?;
+    Ok(carried.into_iter().collect())
 }
 
 /// Those of a frame in a plan. `loads`: compressions of columns by name, zero where there is none \[N\].
@@ -453,8 +456,7 @@ pub(super) fn loaded(
     name: &str,
     loads: &BTreeMap<String, f64>,
 ) -> KnownMembers {
-    let load = |name: &str, _: FramePlace| loads.get(name).copied().unwrap_or(0.0);
-    of_frame(0, &format!("{name}."), frame, reinforced, load)
+    of_frame(0, &format!("{name}."), frame, reinforced, loads)
 }
 
 /// The same of a sound building with a plan: of its frames at lines of the plan, and of its space frame.
@@ -471,25 +473,24 @@ pub(super) fn members_in_plan(
     };
     let frames = reinforced.frames.iter();
     let asks_gravity = frames.clone().any(Reinforced::asks_gravity);
-    let carried: BTreeMap<String, f64> = if asks_gravity || !reinforced.members.is_empty() {
-        let carried = compressions_of_members(building).map_err(|_| DOES_NOT_STAND.to_owned())?;
-        carried.into_iter().collect()
-    } else {
-        BTreeMap::new()
-    };
-    let load = |name: &str| carried.get(name).copied().unwrap_or(0.0);
+    let carried = carried(building, asks_gravity || !reinforced.members.is_empty())?;
     let mut members = KnownMembers::default();
     for (frame, reinforcement) in tiers.frames.iter().zip(frames) {
         let name = format!("{}.", frame.name);
-        let load = |name: &str, _: FramePlace| load(name);
-        members.append(of_frame(index, &name, &frame.frame, reinforcement, load));
+        members.append(of_frame(
+            index,
+            &name,
+            &frame.frame,
+            reinforcement,
+            &carried,
+        ));
     }
     if let Some(frame) = &tiers.space_frame {
         let places = frame.members.iter();
         let laid = places.filter_map(|place| Some((place, reinforced.members.get(&place.place)?)));
         for (member, known) in laid {
             let name = member.place.to_string();
-            let compression = load(&name);
+            let compression = carried.get(&name).copied().unwrap_or(0.0);
             let heights = &tiers.storey_heights;
             match known {
                 KnownSection::Bars(read) => {
@@ -600,20 +601,20 @@ impl Reinforced {
     }
 
     /// Whether a column takes its load from gravity.
-    fn asks_gravity(&self) -> bool {
+    pub(super) fn asks_gravity(&self) -> bool {
         let mut laid = self.columns.iter().flatten().flatten();
         laid.any(|laid| laid.axial == Axial::FromGravity)
     }
 }
 
-/// The members of known strength of a plane frame. `prefix`: what stands before their names; `load`: compression of a column by name and by
-/// storey and line, where it follows from gravity \[N\].
+/// The members of known strength of a plane frame. `prefix`: what stands before their names; `carried`: compressions of columns by name, zero
+/// where there is none \[N\].
 fn of_frame(
     index: usize,
     prefix: &str,
     frame: &Frame,
     reinforced: &Reinforced,
-    load: impl Fn(&str, FramePlace) -> f64,
+    carried: &BTreeMap<String, f64>,
 ) -> KnownMembers {
     // Depths of what frames into a member, where it is known.
     let depth = |list: &[Vec<Option<Laid>>], row: Option<usize>, place: Option<usize>| {
@@ -649,7 +650,7 @@ fn of_frame(
                 frame.storey_heights[storey],
                 match axial {
                     Axial::Given(force) => *force,
-                    Axial::FromGravity => load(&name, [storey, place]),
+                    Axial::FromGravity => carried.get(&name).copied().unwrap_or(0.0),
                 },
                 deeper_beam(storey.checked_sub(1), place) + deeper_beam(Some(storey), place),
             ),
@@ -696,27 +697,10 @@ fn of_frame(
 }
 
 /// Why columns have no load from gravity.
-const DOES_NOT_STAND: &str = "cannot be taken from gravity: the building does not stand by itself";
+const DOES_NOT_STAND: &str =
+    "cannot take its load from gravity: the building does not carry its own weight";
 
 /// Length between faces; never less than a fifth of that between axes \[m\].
 fn clear(length: f64, depths: f64) -> f64 {
     (length - depths).max(0.2 * length)
-}
-
-/// Compression at the foot of every column, by storey and column line; zero where there is none \[N\].
-fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
-    let Structure::Frame(frame) = &building.structure else {
-        return Ok(Vec::new());
-    };
-    let system = BuildingSystem::new(&building.name, Discretization::new(building));
-    let compressions =
-        compressions(&system, STANDARD_GRAVITY).map_err(|_| DOES_NOT_STAND.to_owned())?;
-    let mut loads = vec![vec![0.0; frame.lines()]; frame.storey_heights.len()];
-    for member in &system.discretization.members {
-        if let MemberPlace::Column { line, storey } = member.place {
-            // The lowest element is the first.
-            loads[storey - 1][line - 1] = compressions[member.elements.start];
-        }
-    }
-    Ok(loads)
 }

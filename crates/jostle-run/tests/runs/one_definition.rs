@@ -1,0 +1,94 @@
+//! What several kinds of buildings report has one definition, and forces that are known are not refused.
+
+use jostle::Solver;
+use jostle::results::summary::BuildingSummary;
+use jostle::statics::STANDARD_GRAVITY;
+use jostle_section::formula::Member;
+use jostle_testkit::compare::near;
+use jostle_testkit::motions::fading;
+use jostle_testkit::{files, runs};
+
+const MOTION: &str = "[motion]\nrecord = \"el-centro-1940-ns\"\nduration = \"2 s\"\n";
+
+/// The same under a motion of this scale, of either sign \[m/s²\].
+fn shaken_by(text: &str, scale: f64) -> BuildingSummary {
+    let mut model = files::sound(text).model;
+    model.analysis.step = Some(2e-3);
+    model.analysis.solver = Some(Solver::Riccati);
+    model.analysis.members.envelopes = text.contains("spans");
+    let motion = fading("two", 6.0, [scale, 1.6], 200);
+    let (_, _, summary) = runs::run_and_summary(&model, &motion);
+    summary.buildings.into_iter().next().expect("a building")
+}
+
+/// Compressions at rest and clear lengths of columns \[N, m\].
+fn columns(text: &str) -> Vec<[f64; 2]> {
+    let input = files::sound(text);
+    let columns = input.members.reinforced.iter();
+    let columns = columns.filter(|member| member.member == Member::Column);
+    columns
+        .map(|column| [column.compression, column.clear_length])
+        .collect()
+}
+
+const BARS: &str = "column = { width = \"500 mm\", depth = \"500 mm\", concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" }\n";
+
+/// Beams of 4 t/m on 10 m without bars, on three columns.
+fn members(storeys: usize) -> String {
+    format!(
+        "spans = [\"6 m\", \"4 m\"]\nelastic_modulus = \"30 GPa\"\n{BARS}beam = {{ width = \"300 mm\", depth = \"500 mm\" }}\ndensity = 0\nbeam_mass = \"4000 kg/m\"\ncolumn_segments = 1\nbeam_segments = 4\naxial = {{ columns = \"rigid\" }}\n# {storeys} storeys\n"
+    )
+}
+
+fn plane(storeys: usize, keys: &str) -> String {
+    format!(
+        "{MOTION}[[building]]\nname = \"A\"\nkind = \"frame\"\nstoreys = {storeys}\nstorey_height = \"3 m\"\nfloor_mass = \"5 t\"\np_delta = false\n{}{keys}",
+        members(storeys)
+    )
+}
+
+/// Two such frames at lines of a plan.
+fn in_plan(storeys: usize, keys: &str) -> String {
+    format!(
+        "{MOTION}[[building]]\nname = \"A\"\nkind = \"frame\"\nstoreys = {storeys}\nstorey_height = \"3 m\"\nplan = [\"10 m\", \"8 m\"]\nmass = \"10 t\"\np_delta = false\nstiffness = {{ x = \"0 N/m\", y = \"80 MN/m\", torsion = \"5 GN.m/rad\" }}\n[[building.frame]]\nname = \"f\"\nat = [[\"0 m\", \"1 m\"], [\"0 m\", \"7 m\"]]\n{}{keys}",
+        members(storeys)
+    )
+}
+
+/// Springs of joints let beams turn, whether they can yield or not, and whether the run has weight or not.
+#[test]
+fn springs_that_can_yield_share_the_weight_as_elastic_ones() {
+    let joint = "rotational_stiffness = \"30 MN.m/rad\"";
+    let hinge = "hinge = { rule = \"bilinear\", yield = \"5 MN.m\", post_yield = 0.02 }";
+    let elastic = format!("joint = {{ {joint} }}\n");
+    let yields = format!("joint = {{ {joint}, {hinge} }}\n");
+    let [rigid, expected] = ["", &elastic].map(|keys| columns(&plane(1, keys)));
+    // What the springs change: some 4 % of the load of the middle column.
+    assert!((rigid[1][0] / expected[1][0] - 1.0).abs() > 0.03);
+    let weight = STANDARD_GRAVITY * (5e3 + 4e3 * 10.0);
+    let all: f64 = expected.iter().map(|column| column[0]).sum();
+    near(all, weight, 1e-9, "weight of the frame");
+    for text in [plane(1, &yields), in_plan(1, &elastic), in_plan(1, &yields)] {
+        let found = columns(&text);
+        for (place, (found, expected)) in found.iter().zip(expected.iter().cycle()).enumerate() {
+            near(
+                found[0],
+                expected[0],
+                1e-9,
+                &format!("column {place} of {text}"),
+            );
+        }
+    }
+    // Hinges of the members likewise: those of the run at rest.
+    let yields = "hinges = { rule = \"bilinear\", initial = 5, column = { yield = \"9 MN.m\", post_yield = 0.02 }, beam = { yield = \"9 MN.m\", post_yield = 0.02 } }\n";
+    let at_rest = shaken_by(&plane(1, &format!("gravity = true\n{yields}")), 1e-9);
+    let found = columns(&plane(1, yields));
+    for (place, found) in found.iter().enumerate() {
+        let name = format!("A.column.{}.1", place + 1);
+        let member = at_rest.members.iter().find(|member| member.name == name);
+        let end = member.expect("a column").ends[0];
+        let mean = -0.5 * (end.axial_max_n + end.axial_min_n);
+        near(found[0], mean, 1e-6, &name);
+        assert!((rigid[place][0] / found[0] - 1.0).abs() > 0.01, "{name}");
+    }
+}
