@@ -11,7 +11,7 @@ use jostle_section::{
 };
 
 use super::places::{Layout, sections};
-use super::steel_profile;
+use super::{section, steel_profile};
 use crate::grade::ConcreteGrade;
 use crate::keys::{self, SECTION_CONCRETES, STEELS, STRENGTHS};
 use crate::quantity::Dimension;
@@ -129,7 +129,12 @@ pub(super) struct Reinforced {
     pub(super) columns: Vec<Vec<Option<Laid>>>,
     /// By floor and bay.
     pub(super) beams: Vec<Vec<Option<Laid>>>,
+    /// Depths of columns and walls by storey and line, then of beams by floor and bay; 0 where there is none or it is unknown \[m\].
+    depths: [Vec<Vec<f64>>; 2],
 }
+
+/// By storey or floor and by line or bay.
+type Grid<T> = Vec<Vec<Option<T>>>;
 
 /// A section in a place of a frame.
 #[derive(Clone, Debug)]
@@ -151,14 +156,6 @@ impl KnownSection {
         match self {
             Self::Bars(read) => Some(&read.section),
             Self::Profile(_) => None,
-        }
-    }
-
-    /// Its size in the direction of bending \[m\].
-    fn depth(&self) -> f64 {
-        match self {
-            Self::Bars(read) => read.section.depth,
-            Self::Profile(steel) => steel.profile.depth(steel.axis),
         }
     }
 }
@@ -190,7 +187,7 @@ pub(super) fn of_building(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Co
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> Reinforced {
     let concrete = of_building(reader, view);
     let storeys = frame.storey_heights.len();
-    let mut of = |member: Member| {
+    let mut of = |member: Member| -> (Grid<Laid>, Grid<f64>) {
         let across = match member {
             Member::Column => frame.lines(),
             Member::Beam => frame.spans.len(),
@@ -198,13 +195,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> R
         let layout =
             reader.quietly(|reader| Layout::read(reader, view, member, Some(storeys), across));
         let Some(layout) = layout else {
-            return Vec::new();
+            return (Vec::new(), Vec::new());
         };
         let tables = layout.tables.iter();
-        let laid: Vec<Option<Laid>> = tables
+        let read: Vec<(Option<Laid>, Option<f64>)> = tables
             .map(|table| match table.omits {
-                true => None,
-                false => read_one(reader, &table.field, member, concrete),
+                true => (None, None),
+                false => (
+                    read_one(reader, &table.field, member, concrete),
+                    depth_in(reader, &table.field, member),
+                ),
             })
             .collect();
         let rows = layout.holds.iter().enumerate().map(|(storey, row)| {
@@ -213,16 +213,35 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> R
                     Member::Column => frame.bare_column(storey, place),
                     Member::Beam => frame.bare_beam(storey, place),
                 };
-                laid[(*table)?].clone().filter(|_| exists.is_some())
+                let here = table.filter(|_| exists.is_some());
+                here.map_or((None, None), |table| read[table].clone())
             });
-            places.collect()
+            places.unzip::<_, _, Vec<_>, Vec<_>>()
         });
-        rows.collect()
+        rows.unzip()
     };
+    let (columns, depths_of_columns) = of(Member::Column);
+    let (beams, depths_of_beams) = of(Member::Beam);
+    let walls = |storey: usize, line: usize| frame.wall([storey, line]).map(|wall| wall.length);
+    let depths = (0..storeys).map(|storey| {
+        let column = |line: usize| *depths_of_columns.get(storey)?.get(line)?;
+        let lines = 0..frame.lines();
+        let depths = lines.map(|line| walls(storey, line).or(column(line)).unwrap_or(0.0));
+        depths.collect()
+    });
+    let of_beams = depths_of_beams.into_iter();
+    let of_beams = of_beams.map(|row| row.into_iter().map(Option::unwrap_or_default).collect());
     Reinforced {
-        columns: of(Member::Column),
-        beams: of(Member::Beam),
+        columns,
+        beams,
+        depths: [depths.collect(), of_beams.collect()],
     }
+}
+
+/// Depth in the table of a column or beam \[m\].
+fn depth_in(reader: &mut Reader<'_>, field: &Field<'_>, member: Member) -> Option<f64> {
+    let view = reader.reopen(field, sections(member))?;
+    section::depth_of(reader, &view)
 }
 
 fn read_one(
@@ -562,8 +581,10 @@ fn in_space(
             true => storey.checked_sub(1),
             false => Some(storey),
         };
-        let depths = met(below, first, axis) + met(Some(storey), last, axis);
-        clear(length, 0.5 * depths)
+        clear(
+            length,
+            [met(below, first, axis), met(Some(storey), last, axis)],
+        )
     };
     let along = match place {
         SpacePlace::BeamY { .. } => PlanAxis::Y,
@@ -616,22 +637,20 @@ fn of_frame(
     reinforced: &Reinforced,
     carried: &BTreeMap<String, f64>,
 ) -> KnownMembers {
-    // Depths of what frames into a member, where it is known.
-    let depth = |list: &[Vec<Option<Laid>>], row: Option<usize>, place: Option<usize>| {
-        let laid = row
-            .zip(place)
-            .and_then(|(row, place)| list.get(row)?.get(place)?.as_ref());
-        laid.map_or(0.0, |laid| laid.known.depth())
+    let [columns, beams] = &reinforced.depths;
+    let depth = |depths: &[Vec<f64>], row: Option<usize>, place: Option<usize>| {
+        let depth = row.zip(place);
+        let depth = depth.and_then(|(row, place)| depths.get(row)?.get(place).copied());
+        depth.unwrap_or(0.0)
     };
     let deeper_beam = |floor: Option<usize>, line: usize| {
-        let [left, right] =
-            [line.checked_sub(1), Some(line)].map(|bay| depth(&reinforced.beams, floor, bay));
+        let [left, right] = [line.checked_sub(1), Some(line)].map(|bay| depth(beams, floor, bay));
         left.max(right)
     };
     let mut members = KnownMembers::default();
-    let columns = frame.all_columns().map(|column| (Member::Column, column));
-    let beams = frame.all_beams().map(|beam| (Member::Beam, beam));
-    for (member, ([storey, place], section)) in columns.chain(beams) {
+    let all_columns = frame.all_columns().map(|column| (Member::Column, column));
+    let all_beams = frame.all_beams().map(|beam| (Member::Beam, beam));
+    for (member, ([storey, place], section)) in all_columns.chain(all_beams) {
         let list = match member {
             Member::Column => &reinforced.columns,
             Member::Beam => &reinforced.beams,
@@ -645,20 +664,20 @@ fn of_frame(
             Member::Column => format!("{prefix}column.{at}.{floor}"),
             Member::Beam => format!("{prefix}beam.{floor}.{at}"),
         };
-        let (length, compression, depths) = match member {
+        let (length, compression, met) = match member {
             Member::Column => (
                 frame.storey_heights[storey],
                 match axial {
                     Axial::Given(force) => *force,
                     Axial::FromGravity => carried.get(&name).copied().unwrap_or(0.0),
                 },
-                deeper_beam(storey.checked_sub(1), place) + deeper_beam(Some(storey), place),
+                [storey.checked_sub(1), Some(storey)].map(|floor| deeper_beam(floor, place)),
             ),
-            Member::Beam => {
-                let [left, right] = [place, place + 1]
-                    .map(|line| depth(&reinforced.columns, Some(storey), Some(line)));
-                (frame.spans[place], 0.0, left + right)
-            }
+            Member::Beam => (
+                frame.spans[place],
+                0.0,
+                [place, place + 1].map(|line| depth(columns, Some(storey), Some(line))),
+            ),
         };
         let read = match known {
             KnownSection::Bars(read) => read,
@@ -687,7 +706,7 @@ fn of_frame(
             compression,
             length,
             rigidity: section.flexural_rigidity,
-            clear_length: clear(length, 0.5 * depths),
+            clear_length: clear(length, met),
             clear_length_across: None,
             level: read.level,
             home_rule: read.home_rule,
@@ -700,7 +719,9 @@ fn of_frame(
 const DOES_NOT_STAND: &str =
     "cannot take its load from gravity: the building does not carry its own weight";
 
-/// Length between faces; never less than a fifth of that between axes \[m\].
-fn clear(length: f64, depths: f64) -> f64 {
-    (length - depths).max(0.2 * length)
+/// Length between the faces of what meets the two ends of a member, whether that has bars or not; never less than a fifth of that between
+/// axes. `met`: the greatest depth at either end \[m\].
+fn clear(length: f64, met: [f64; 2]) -> f64 {
+    let [first, last] = met;
+    (length - 0.5 * (first + last)).max(0.2 * length)
 }

@@ -92,3 +92,33 @@ fn springs_that_can_yield_share_the_weight_as_elastic_ones() {
         assert!((rigid[place][0] / found[0] - 1.0).abs() > 0.01, "{name}");
     }
 }
+
+/// Storeys less the depths of beams, which have no bars.
+#[test]
+fn clear_heights_end_at_beams_of_whatever_kind() {
+    let space = format!(
+        "{MOTION}[[building]]\nname = \"A\"\nkind = \"space-frame\"\nstoreys = 2\nstorey_height = \"3 m\"\nlines_x = [\"0 m\", \"6 m\", \"10 m\"]\nlines_y = [\"0 m\", \"8 m\"]\nmass = \"60 t\"\nelastic_modulus = \"30 GPa\"\n{}beam_x = {{ width = \"300 mm\", depth = \"500 mm\" }}\nbeam_y = {{ width = \"300 mm\", depth = \"400 mm\" }}\n",
+        BARS.replace(
+            "width = \"500 mm\", depth = \"500 mm\"",
+            "size = [\"500 mm\", \"500 mm\"]"
+        )
+    );
+    for text in [plane(2, ""), in_plan(2, ""), space] {
+        let found = columns(&text);
+        let lowest = found
+            .iter()
+            .filter(|column| (column[1] - 2.75).abs() < 1e-9);
+        let others = found.iter().filter(|column| (column[1] - 2.5).abs() < 1e-9);
+        let counts = [lowest.count(), others.count()];
+        assert_eq!(counts, [found.len() / 2; 2], "{found:?}\n{text}");
+    }
+    // Faces of walls end beams.
+    let wall = "wall = [{ line = 3, length = \"1.6 m\", thickness = \"250 mm\" }]\nbeam = { width = \"300 mm\", depth = \"500 mm\", concrete = \"C30\", steel = \"HRB400\", bars = \"4 d20 top, 4 d20 bottom\" }\n";
+    let text =
+        plane(1, wall).replacen("beam = { width = \"300 mm\", depth = \"500 mm\" }\n", "", 1);
+    let input = files::sound(&text);
+    let beams = input.members.reinforced.iter();
+    let beams = beams.filter(|member| member.member == Member::Beam);
+    let lengths: Vec<f64> = beams.map(|beam| beam.clear_length).collect();
+    assert_eq!(lengths, [6.0 - 0.5, 4.0 - 0.25 - 0.8]);
+}
