@@ -1,8 +1,8 @@
 //! What several kinds of buildings report has one definition, and forces that are known are not refused.
 
-use jostle::Solver;
 use jostle::results::summary::BuildingSummary;
 use jostle::statics::STANDARD_GRAVITY;
+use jostle::{Solver, System};
 use jostle_section::formula::Member;
 use jostle_testkit::compare::near;
 use jostle_testkit::motions::fading;
@@ -121,4 +121,45 @@ fn clear_heights_end_at_beams_of_whatever_kind() {
     let beams = beams.filter(|member| member.member == Member::Beam);
     let lengths: Vec<f64> = beams.map(|beam| beam.clear_length).collect();
     assert_eq!(lengths, [6.0 - 0.5, 4.0 - 0.25 - 0.8]);
+}
+
+/// Modes across are those of a building that can do nothing else: turned by a right angle, it is damped alike.
+#[test]
+fn the_twist_of_a_base_does_not_change_damping_across() {
+    let alpha = |along: &str, swap: bool| {
+        let pair = |x: &str, y: &str| match swap {
+            true => format!("x = \"{y} MN/m\", y = \"{x} MN/m\""),
+            false => format!("x = \"{x} MN/m\", y = \"{y} MN/m\""),
+        };
+        let at = |x: &str, y: &str| match swap {
+            true => format!("[\"{y} m\", \"{x} m\"]"),
+            false => format!("[\"{x} m\", \"{y} m\"]"),
+        };
+        let elements = [
+            ("1", "1", "50", "40"),
+            ("11", "6", "40", "60"),
+            ("6", "7", "60", "30"),
+        ];
+        let elements = elements.map(|(x, y, along, across)| {
+            format!(
+                "{{ at = {}, stiffness = {{ {} }} }}",
+                at(x, y),
+                pair(along, across)
+            )
+        });
+        let text = format!(
+            "{MOTION}[[building]]\nname = \"A\"\nkind = \"shear\"\nstoreys = 2\nstorey_height = \"3 m\"\nplan = {}\nmass = \"100 t\"\nelement = [{}]\ndamping = {{ ratio = 0.05, along = \"{along}\" }}\nbase = {{ horizontal_stiffness = \"900 MN/m\", torsional_stiffness = \"20 GN.m/rad\", mass = \"80 t\" }}\n",
+            at("12", "8"),
+            elements.join(", ")
+        );
+        let system = System::assemble(&files::sound(&text).model);
+        let system = system.unwrap_or_else(|faults| panic!("{faults:?}"));
+        system.buildings[0].equations.alpha
+    };
+    for swap in [false, true] {
+        let [along, across] = [("x", swap), ("y", !swap)].map(|(along, swap)| alpha(along, swap));
+        near(across, along, 1e-9, "alpha");
+        let both = [alpha("both", swap), alpha("both", !swap)];
+        near(both[1], both[0], 1e-9, "alpha of both directions");
+    }
 }
