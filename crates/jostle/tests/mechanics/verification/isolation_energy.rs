@@ -75,8 +75,8 @@ fn in_storeys(model: &Model, outcome: &Outcome) -> f64 {
     storeys.map(|(u, k)| 0.5 * k * (u[1] - u[0]).powi(2)).sum()
 }
 
-/// What the bearings have dissipated is the area of their loops without what they would give back: F²/2K₁ of a bilinear spring; of
-/// a pendulum with friction that changes, W u²/2R and f²/2k of the slider. All is elastic above them, and stops give all back.
+/// What the bearings have dissipated is the area of their loops without what they store: K₂u²/2 of the stiffness after yield, W/R of a
+/// pendulum, and f²/2k of what slides beside it; of several surfaces F²/2k. All is elastic above them, and stops give all back.
 #[test]
 fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
     let stop = Stop {
@@ -111,7 +111,15 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
         let force = end(Column::support_force(0));
         let moved = end(Column::displacement(0, 0));
         let stored = match isolator {
-            Isolator::LeadRubber { stiffness, .. } => 0.5 * force * force / stiffness,
+            Isolator::LeadRubber {
+                stiffness,
+                post_yield,
+                ..
+            } => {
+                let second = post_yield * stiffness;
+                let held = force - second * moved;
+                0.5 * second * moved * moved + 0.5 * held * held / (stiffness - second)
+            }
             Isolator::Pendulum {
                 radius,
                 friction,
@@ -119,12 +127,8 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
             } => {
                 let (second, slider) =
                     (weight / radius, friction.fast * weight / slip_displacement);
-                if friction.is_constant() {
-                    0.5 * force * force / (second + slider)
-                } else {
-                    let held = force - second * moved;
-                    0.5 * second * moved * moved + 0.5 * held * held / slider
-                }
+                let held = force - second * moved;
+                0.5 * second * moved * moved + 0.5 * held * held / slider
             }
             Isolator::DoublePendulum {
                 surfaces,
