@@ -10,6 +10,11 @@ use jostle_testkit::{files, runs};
 
 const MOTION: &str = "[motion]\nrecord = \"el-centro-1940-ns\"\nduration = \"2 s\"\n";
 
+/// The only building of a text, in fixed direct steps.
+fn shaken(text: &str) -> BuildingSummary {
+    shaken_by(text, 4.0)
+}
+
 /// The same under a motion of this scale, of either sign \[m/s²\].
 fn shaken_by(text: &str, scale: f64) -> BuildingSummary {
     let mut model = files::sound(text).model;
@@ -161,5 +166,23 @@ fn the_twist_of_a_base_does_not_change_damping_across() {
         near(across, along, 1e-9, "alpha");
         let both = [alpha("both", swap), alpha("both", !swap)];
         near(both[1], both[0], 1e-9, "alpha of both directions");
+    }
+}
+
+/// What a foundation that lifts off weighs in the mass that moves does not depend on the kind of the building.
+#[test]
+fn foundations_that_rise_are_part_of_the_mass_that_moves() {
+    let foundation = "gravity = true\nfoundation = { length = \"8 m\", width = \"9 m\", mass = \"80 t\", uplift = true, springs = 5, vertical_stiffness = \"4 GN/m\" ACROSS}\n";
+    let storeys = "kind = \"shear\"\nstoreys = 2\nstorey_height = \"3 m\"\nmass = \"130 t\"\n";
+    let plane = format!(
+        "{MOTION}[[building]]\nname = \"A\"\n{storeys}stiffness = \"200 MN/m\"\n{}",
+        foundation.replace("ACROSS", "")
+    );
+    let plan = format!(
+        "{MOTION}[[building]]\nname = \"A\"\n{storeys}plan = [\"8 m\", \"9 m\"]\nstiffness = {{ x = \"200 MN/m\", y = \"200 MN/m\", torsion = \"5 GN.m/rad\" }}\n{}",
+        foundation.replace("ACROSS", ", springs_across = 3 ")
+    );
+    for text in [plane, plan] {
+        near(shaken(&text).mass_kg, 340e3, 1e-9, &text);
     }
 }
