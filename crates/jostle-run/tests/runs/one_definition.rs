@@ -186,3 +186,20 @@ fn foundations_that_rise_are_part_of_the_mass_that_moves() {
         near(shaken(&text).mass_kg, 340e3, 1e-9, &text);
     }
 }
+
+/// Feet that only turn leave the ground where it is.
+#[test]
+fn dampers_stand_on_the_ground_beside_feet_that_turn() {
+    let text = |base: &str| {
+        plane(
+            1,
+            &format!("damper = [{{ floors = [0, 1], damping = \"300 kN.s/m\" }}]\n{base}"),
+        )
+    };
+    let fixed = shaken(&text(""));
+    let turns = shaken(&text(
+        "base = { rotational_stiffness = \"1e9 MN.m/rad\" }\n",
+    ));
+    let roof = |building: &BuildingSummary| building.floors[0].response.displacement_max_m;
+    near(roof(&turns), roof(&fixed), 1e-6, "displacement of the roof");
+}
