@@ -203,3 +203,37 @@ fn dampers_stand_on_the_ground_beside_feet_that_turn() {
     let roof = |building: &BuildingSummary| building.floors[0].response.displacement_max_m;
     near(roof(&turns), roof(&fixed), 1e-6, "displacement of the roof");
 }
+
+const COUPLED: &str = "wall = [{ line = 1, length = \"2 m\", thickness = \"250 mm\" }, { line = 2, length = \"1.5 m\", thickness = \"250 mm\" }]\ncoupling_beam = [{ bay = 1, width = \"250 mm\", depth = \"600 mm\" }]\ngravity = true\n";
+
+/// Forces of parts that shorten follow from their deformations, those of rigid ones from masses alone.
+#[test]
+fn vertical_shaking_is_refused_only_where_forces_lack_it() {
+    let vertical = |keys: &str, motion: &str| {
+        let text = plane(1, keys).replacen("[[building]]", &format!("{motion}[[building]]"), 1);
+        let text = text.replacen("axial = { columns = \"rigid\" }\n", "", 1);
+        let input = files::sound(&text);
+        let opened = jostle_run::Opened::new(input, "model").unwrap_or_else(|e| panic!("{e}"));
+        opened
+            .prepare()
+            .map(|_| ())
+            .map_err(|error| error.to_string())
+    };
+    let shaking = "vertical = { scale = 0.6 }\n";
+    for (rest, asked) in [("", false), ("[output]\nmembers = true\n", true)] {
+        let of = |axial: &str| format!("{COUPLED}axial = {{ columns = \"{axial}\" }}\n{rest}");
+        assert_eq!(vertical(&of("flexible"), shaking), Ok(()), "{rest}");
+        let refused = vertical(&of("rigid"), shaking).expect_err("walls that keep their length");
+        let place = if asked {
+            "output.members"
+        } else {
+            "motion.vertical"
+        };
+        let remedy = "axial = { columns = \"flexible\" }";
+        assert!(
+            refused.contains(place) && refused.contains(remedy),
+            "{refused}"
+        );
+        assert_eq!(vertical(&of("rigid"), ""), Ok(()), "{rest}");
+    }
+}
