@@ -4,7 +4,7 @@ use jostle::results::summary::BuildingSummary;
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::{Solver, System};
 use jostle_section::formula::Member;
-use jostle_testkit::compare::near;
+use jostle_testkit::compare::{close, near};
 use jostle_testkit::motions::fading;
 use jostle_testkit::{files, runs};
 
@@ -235,5 +235,57 @@ fn vertical_shaking_is_refused_only_where_forces_lack_it() {
             "{refused}"
         );
         assert_eq!(vertical(&of("rigid"), ""), Ok(()), "{rest}");
+    }
+}
+
+/// The mirror image of a frame moves as the mirror image of the frame: its coupling beam slides at its middle.
+#[test]
+fn coupling_beams_that_slide_do_not_know_left_from_right() {
+    let keys = |lines: [usize; 2]| {
+        let coupled = COUPLED
+            .replace("line = 1,", &format!("line = {},", lines[0]))
+            .replace("line = 2,", &format!("line = {},", lines[1]));
+        let bay = lines[0].min(lines[1]);
+        let coupled = coupled.replace("bay = 1,", &format!("bay = {bay},"));
+        let hinge = "depth = \"600 mm\", hinge = { rule = \"bilinear\", yield = \"60 kN\", post_yield = 0.02 }";
+        coupled.replace("depth = \"600 mm\"", hinge)
+    };
+    for segments in [1, 2, 3, 4] {
+        let set = |text: String| {
+            text.replace("beam_segments = 4", &format!("beam_segments = {segments}"))
+        };
+        let ahead = set(plane(2, &keys([1, 2])));
+        let mirrored = set(plane(2, &keys([3, 2])));
+        let mirrored = mirrored.replace("[\"6 m\", \"4 m\"]", "[\"4 m\", \"6 m\"]");
+        let [ahead, back] =
+            [(ahead, 4.0), (mirrored, -4.0)].map(|(text, scale)| shaken_by(&text, scale));
+        let scale = ahead.floors[1].response.displacement_peak_m();
+        for (one, other) in ahead.floors.iter().zip(&back.floors) {
+            let (one, other) = (&one.response, &other.response);
+            for (one, other) in [
+                (one.displacement_max_m, -other.displacement_min_m),
+                (one.displacement_min_m, -other.displacement_max_m),
+            ] {
+                close(other, one, scale, 1e-8, &format!("{segments} segments"));
+            }
+        }
+        let part = |building: &BuildingSummary| {
+            let mut parts = building.parts.iter();
+            let part = parts
+                .find(|part| part.kind == "coupling-beam")
+                .expect("there");
+            [part.force_max_n, part.force_min_n]
+        };
+        let [one, other] = [part(&ahead), part(&back)];
+        assert!(one[0].max(-one[1]) > 60e3, "it slides: {one:?}");
+        for (one, other) in [(one[0], -other[1]), (one[1], -other[0])] {
+            close(
+                other,
+                one,
+                60e3,
+                1e-7,
+                &format!("shear, {segments} segments"),
+            );
+        }
     }
 }
