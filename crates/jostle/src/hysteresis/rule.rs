@@ -745,8 +745,8 @@ impl Hysteresis {
 
     /// Stored energy, ≥ 0 \[J\]. The work done on the spring minus this energy is dissipated, and is never got back.
     ///
-    /// Of rules with kinematic hardening, it is that of their elastic springs in parallel, those in series with sliders included; of
-    /// others, what unloading to zero force would release, F² / 2k.
+    /// Of rules with kinematic hardening, it is that of their elastic springs, those in series with sliders and the bowls of pendulums
+    /// included; of others, what unloading to zero force would release, F² / 2k.
     #[must_use]
     pub fn recoverable_energy(&self, memory: &HysteresisMemory) -> f64 {
         match self.rule {
@@ -762,6 +762,11 @@ impl Hysteresis {
             HysteresisRule::Surface { .. } | HysteresisRule::SpaceSurface { .. } => {
                 return surface::stored_energy(&self.backbone, memory);
             }
+            HysteresisRule::Pendulums(stages)
+            | HysteresisRule::InPlan {
+                law: CircularLaw::Pendulums(stages),
+                row: ForceRow::X | ForceRow::Y,
+            } => return pendulums::stored_energy(&self.backbone, &stages, memory),
             _ if memory.force == 0.0 => return 0.0,
             _ => {}
         }
