@@ -313,15 +313,30 @@ fn read(
         Structure::Given(_) => None,
         Structure::Frame(frame) => {
             let reinforced = reinforced::read(reader, &view, frame);
-            let firm = on_firm_ground(&building);
-            let here = (reader.count_faults() == noted && is_sound(&firm))
-                .then(|| reinforced::members(index, &firm, &reinforced));
-            let here = sound_members(reader, &view, here);
+            let read_hinges = |reader: &mut Reader<'_>, here: Option<&KnownMembers>| {
+                let hinges = stated
+                    .as_ref()
+                    .and_then(|field| hinges::read_frame(reader, field, frame, &reinforced, here));
+                joint::with_hinge(reader, &view, frame, hinges)
+            };
+            let mut firm = on_firm_ground(&building);
+            let members_of = |reader: &mut Reader<'_>, firm: &Building| {
+                let here = (reader.count_faults() == noted && is_sound(firm))
+                    .then(|| reinforced::members(index, firm, &reinforced));
+                sound_members(reader, &view, here)
+            };
+            let mut here = members_of(reader, &firm);
+            let mut hinges = read_hinges(reader, here.as_ref());
+            if hinges.is_some() && reinforced.asks_gravity() {
+                // Springs change what columns bear, and that changes where hinges yield.
+                firm.hinges = hinges.clone();
+                let with_springs = members_of(reader, &firm);
+                if with_springs.is_some() {
+                    here = with_springs;
+                    hinges = read_hinges(reader, here.as_ref());
+                }
+            }
             let laid = here.as_ref().map(|here| &here.reinforced[..]);
-            let hinges = stated.as_ref().and_then(|field| {
-                hinges::read_frame(reader, field, frame, &reinforced, here.as_ref())
-            });
-            let hinges = joint::with_hinge(reader, &view, frame, hinges);
             let failing = reader
                 .get(&view, "shear_failure")
                 .map(|field| shear_failure::read(reader, &field, frame, "", laid));
@@ -385,7 +400,9 @@ fn sound_members(
     match found? {
         Ok(members) => Some(members),
         Err(problem) => {
-            reader.fault(&view.span.clone(), format!("{}.column", view.path), problem);
+            let path = format!("{}.column", view.path);
+            *reader.fault(&view.span.clone(), path, problem) =
+                Some("check its supports, and the yield moments of its hinges".into());
             None
         }
     }

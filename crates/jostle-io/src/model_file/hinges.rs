@@ -8,22 +8,18 @@ use jostle::hysteresis::{
 };
 use jostle::{ColumnFibres, Frame, FrameHinges, FramePlace, Hinges, Shear};
 use jostle_section::formula::Member;
-use jostle_section::{EndCurve, FORMULA_POST_YIELD, Options};
 
 use super::building::{has_length, per_storey};
 use super::fibre_hinges;
 use super::frame_members::filled;
-use super::reinforced::{KnownMembers, ProfiledMember, Reinforced, ReinforcedMember};
+use super::hinge_stiffness::{Initial, read_initial};
+use super::reinforced::{KnownMembers, ProfiledMember, Reinforced};
 use super::rigid_ends;
+use super::section_hinges::{self, Wanted};
 use super::surface_hinges;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View, join};
-
-/// Initial stiffness of hinges given by moments, in units of EI/L \[–\].
-const DEFAULT_INITIAL: f64 = 100.0;
-/// Initial stiffness of rigid hinges in units of EI/L: the member end loses 6·10⁻⁵ of its stiffness \[–\].
-const RIGID_INITIAL: f64 = 1e5;
 
 /// Reads the rule; `None` after a fault.
 pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule> {
@@ -162,18 +158,6 @@ fn within(reader: &mut Reader<'_>, field: &Field<'_>, limit: f64) -> Option<f64>
     None
 }
 
-/// Reads the initial stiffness of hinges; `None` after a fault.
-pub(super) fn read_initial(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Initial> {
-    match reader.get(view, "initial") {
-        Some(field) if field.as_text() == Some("rigid") => Some(Initial::Rigid),
-        Some(field) => reader
-            .positive(&field, Dimension::Dimensionless)
-            .map(Initial::Times),
-        None if view.has("from") => Some(Initial::Rigid),
-        None => Some(Initial::Times(DEFAULT_INITIAL)),
-    }
-}
-
 /// Hinges of a frame. `members` are those of known strength; `None` after faults elsewhere.
 pub(super) fn read_frame(
     reader: &mut Reader<'_>,
@@ -233,7 +217,7 @@ pub(super) fn read_frame(
             initial: initial?,
             method: method?,
         };
-        let hinges = of_sections(reader, field, frame, &wanted, members?)?;
+        let hinges = section_hinges::read(reader, field, frame, &wanted, members?)?;
         return with_fibres(hinges, fibres);
     }
     if let (Some(_), Some(field)) = (&fibres, reader.get(&view, "column")) {
@@ -270,44 +254,6 @@ fn with_fibres(
         None => BTreeMap::new(),
     };
     Some(Hinges::Frame(FrameHinges { fibres, ..hinges }))
-}
-
-/// Stiffness of a hinge before it cracks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Initial {
-    /// In units of EI/L; ratios refer to it.
-    Times(f64),
-    /// Practically rigid; ratios refer to the member end, 6 EI/L.
-    Rigid,
-}
-
-impl Initial {
-    pub(super) fn stiffness(self, rigidity: f64, length: f64) -> f64 {
-        let times = match self {
-            Self::Times(times) => times,
-            Self::Rigid => RIGID_INITIAL,
-        };
-        times * rigidity / length
-    }
-
-    /// Ratios of the hinge from those of the file. With a rigid hinge they are those of hinge and member in series:
-    /// a hinge of K r / (1 − r) in series with a member end of K.
-    pub(super) fn ratios(self, given: Corners) -> Corners {
-        let in_series = |ratio: f64| 6.0 / RIGID_INITIAL * ratio / (1.0 - ratio);
-        match self {
-            Self::Times(_) => given,
-            Self::Rigid => Corners {
-                // A bilinear curve has no second slope to turn into that of the hinge.
-                post_cracking: if given.post_cracking < 1.0 {
-                    in_series(given.post_cracking)
-                } else {
-                    given.post_cracking
-                },
-                post_yield: in_series(given.post_yield),
-                ..given
-            },
-        }
-    }
 }
 
 /// Corners of both sides of a hinge as a table states them.
@@ -633,167 +579,6 @@ fn key_of(quantity: Quantity) -> Option<&'static str> {
         Quantity::Residual => Some("residual"),
         Quantity::Initial | Quantity::Rule => None,
     }
-}
-
-/// Which hinges follow from sections, and how.
-struct Wanted<'a> {
-    kinds: &'a [(Member, &'a str)],
-    rule: HysteresisRule,
-    initial: Initial,
-    method: &'a str,
-}
-
-/// Hinges from the reinforcement or the profiles of the members.
-fn of_sections(
-    reader: &mut Reader<'_>,
-    field: &Field<'_>,
-    frame: &Frame,
-    wanted: &Wanted<'_>,
-    members: &KnownMembers,
-) -> Option<FrameHinges> {
-    let Wanted {
-        kinds,
-        rule,
-        initial,
-        method,
-    } = *wanted;
-    let storeys = frame.storey_heights.len();
-    let mut hinges = FrameHinges::default();
-    let mut sound = true;
-    for &(kind, word) in kinds {
-        let (per_storey, count) = match kind {
-            Member::Column => (frame.lines(), frame.bare_members()[0]),
-            Member::Beam => (frame.spans.len(), frame.bare_members()[1]),
-        };
-        let with_bars = members.reinforced.iter();
-        let with_bars: Vec<_> = with_bars.filter(|member| member.member == kind).collect();
-        let profiled = members.profiled.iter();
-        let profiled: Vec<_> = profiled.filter(|member| member.member == kind).collect();
-        if with_bars.len() + profiled.len() != count {
-            let some = if with_bars.is_empty() && profiled.is_empty() {
-                "no"
-            } else {
-                "not every"
-            };
-            *reader.bad(
-                field,
-                format!("takes its moments from the sections, but {some} {word} has bars or yield_strength"),
-            ) = Some(format!(
-                "add {}; or yield_strength = \"355 MPa\" to a profile",
-                match kind {
-                    Member::Column =>
-                        "steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column",
-                    Member::Beam =>
-                        "steel = \"HRB400\", bars = \"4 d25 top, 4 d25 bottom\", cover = \"35 mm\" to beam",
-                }
-            ));
-            sound = false;
-            continue;
-        }
-        let mut said: Vec<String> = Vec::new();
-        let mut rows: Vec<Vec<Option<Hysteresis>>> = vec![vec![None; per_storey]; storeys];
-        let mut known: Vec<(&ReinforcedMember, Hysteresis)> = Vec::new();
-        let mut springs: Vec<([usize; 2], Result<Hysteresis, String>)> = Vec::new();
-        for member in with_bars {
-            let alike = known.iter().find(|(other, _)| {
-                let same_load = other.compression == member.compression;
-                same_load
-                    && other.length == member.length
-                    && other.rigidity == member.rigidity
-                    && other.section == member.section
-            });
-            let spring = match alike {
-                Some((_, spring)) => Ok(*spring),
-                None => spring_of(member, rule, initial, method),
-            };
-            if let (None, Ok(spring)) = (alike, &spring) {
-                known.push((member, *spring));
-            }
-            springs.push(([member.floor, member.place], spring));
-        }
-        let profiled = profiled.into_iter();
-        springs.extend(profiled.map(|member| (member.place, of_profile(member, rule, initial))));
-        for ([floor, place], spring) in springs {
-            match spring {
-                Ok(spring) => rows[floor - 1][place - 1] = Some(spring),
-                Err(problem) => {
-                    let problem = format!("{word} {place} of storey {floor}: {problem}");
-                    sound = false;
-                    if said.is_empty() {
-                        reader.bad(field, problem.clone());
-                    }
-                    said.push(problem);
-                }
-            }
-        }
-        let rows = filled(rows);
-        match kind {
-            Member::Column => hinges.columns = rows,
-            Member::Beam => hinges.beams = rows,
-        }
-    }
-    sound.then_some(hinges)
-}
-
-/// The hinge of a member of steel: bilinear, with the slope after yield of reinforced ones by formula.
-fn of_profile(
-    member: &ProfiledMember,
-    rule: HysteresisRule,
-    initial: Initial,
-) -> Result<Hysteresis, String> {
-    let stiffness = initial.stiffness(member.rigidity, member.length);
-    let after = FORMULA_POST_YIELD / (1.0 - FORMULA_POST_YIELD);
-    let ratio = 6.0 * member.rigidity / member.length * after / stiffness;
-    let corners = Corners::bilinear(member.yield_moment()?, ratio);
-    Backbone::from_forces(stiffness, corners, corners)
-        .and_then(|backbone| Hysteresis::new(rule, backbone))
-        .map_err(first_of)
-}
-
-/// The first of some faults, in words.
-fn first_of(faults: Vec<SpringFault>) -> String {
-    faults.first().map_or_else(String::new, |fault| {
-        format!("{}: {}", fault.quantity, fault.problem)
-    })
-}
-
-/// The hinge of a reinforced member.
-fn spring_of(
-    member: &ReinforcedMember,
-    rule: HysteresisRule,
-    initial: Initial,
-    method: &str,
-) -> Result<Hysteresis, String> {
-    let curve = match method {
-        "fibre" => EndCurve::by_analysis(
-            &member.section,
-            member.compression,
-            member.length,
-            Options::default(),
-        )
-        .map_err(|error| error.to_string())?,
-        _ => EndCurve::by_formula(
-            &member.section,
-            member.compression,
-            member.length,
-            member.member,
-        ),
-    };
-    let stiffness = initial.stiffness(member.rigidity, member.length);
-    let backbone = curve
-        .hinge(6.0 * member.rigidity / member.length, stiffness)
-        .map_err(first_of)?;
-    let backbone = if rule == HysteresisRule::Bilinear {
-        // Without a cracking point.
-        let corners = Side::BOTH.map(|side| {
-            let given = backbone.side(side);
-            Corners::bilinear(given.yielding.force, given.post_yield / stiffness)
-        });
-        Backbone::from_forces(stiffness, corners[0], corners[1]).map_err(first_of)?
-    } else {
-        backbone
-    };
-    Hysteresis::new(rule, backbone).map_err(first_of)
 }
 
 /// Corners of a rule, of which bilinear ones have no cracking point and elastic ones none at all; `None` where a number that it needs is

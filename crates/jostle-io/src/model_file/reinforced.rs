@@ -2,12 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use jostle::statics::{STANDARD_GRAVITY, compressions, compressions_of_members};
-use jostle::structure::{Discretization, MemberPlace};
-use jostle::system::BuildingSystem;
-use jostle::{
-    Building, Frame, FramePlace, PlanAxis, SpaceFrame, SpaceMember, SpacePlace, Structure,
-};
+use jostle::statics::compressions_of_members;
+use jostle::{Building, Frame, PlanAxis, SpaceFrame, SpaceMember, SpacePlace, Structure};
 use jostle_section::capacity::{ShearRule, SteelMember};
 use jostle_section::formula::Member;
 use jostle_section::{
@@ -15,7 +11,7 @@ use jostle_section::{
 };
 
 use super::places::{Layout, sections};
-use super::steel_profile;
+use super::{section, steel_profile};
 use crate::grade::ConcreteGrade;
 use crate::keys::{self, SECTION_CONCRETES, STEELS, STRENGTHS};
 use crate::quantity::Dimension;
@@ -133,7 +129,12 @@ pub(super) struct Reinforced {
     pub(super) columns: Vec<Vec<Option<Laid>>>,
     /// By floor and bay.
     pub(super) beams: Vec<Vec<Option<Laid>>>,
+    /// Depths of columns and walls by storey and line, then of beams by floor and bay; 0 where there is none or it is unknown \[m\].
+    depths: [Vec<Vec<f64>>; 2],
 }
+
+/// By storey or floor and by line or bay.
+type Grid<T> = Vec<Vec<Option<T>>>;
 
 /// A section in a place of a frame.
 #[derive(Clone, Debug)]
@@ -155,14 +156,6 @@ impl KnownSection {
         match self {
             Self::Bars(read) => Some(&read.section),
             Self::Profile(_) => None,
-        }
-    }
-
-    /// Its size in the direction of bending \[m\].
-    fn depth(&self) -> f64 {
-        match self {
-            Self::Bars(read) => read.section.depth,
-            Self::Profile(steel) => steel.profile.depth(steel.axis),
         }
     }
 }
@@ -194,7 +187,7 @@ pub(super) fn of_building(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Co
 pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> Reinforced {
     let concrete = of_building(reader, view);
     let storeys = frame.storey_heights.len();
-    let mut of = |member: Member| {
+    let mut of = |member: Member| -> (Grid<Laid>, Grid<f64>) {
         let across = match member {
             Member::Column => frame.lines(),
             Member::Beam => frame.spans.len(),
@@ -202,13 +195,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> R
         let layout =
             reader.quietly(|reader| Layout::read(reader, view, member, Some(storeys), across));
         let Some(layout) = layout else {
-            return Vec::new();
+            return (Vec::new(), Vec::new());
         };
         let tables = layout.tables.iter();
-        let laid: Vec<Option<Laid>> = tables
+        let read: Vec<(Option<Laid>, Option<f64>)> = tables
             .map(|table| match table.omits {
-                true => None,
-                false => read_one(reader, &table.field, member, concrete),
+                true => (None, None),
+                false => (
+                    read_one(reader, &table.field, member, concrete),
+                    depth_in(reader, &table.field, member),
+                ),
             })
             .collect();
         let rows = layout.holds.iter().enumerate().map(|(storey, row)| {
@@ -217,16 +213,35 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> R
                     Member::Column => frame.bare_column(storey, place),
                     Member::Beam => frame.bare_beam(storey, place),
                 };
-                laid[(*table)?].clone().filter(|_| exists.is_some())
+                let here = table.filter(|_| exists.is_some());
+                here.map_or((None, None), |table| read[table].clone())
             });
-            places.collect()
+            places.unzip::<_, _, Vec<_>, Vec<_>>()
         });
-        rows.collect()
+        rows.unzip()
     };
+    let (columns, depths_of_columns) = of(Member::Column);
+    let (beams, depths_of_beams) = of(Member::Beam);
+    let walls = |storey: usize, line: usize| frame.wall([storey, line]).map(|wall| wall.length);
+    let depths = (0..storeys).map(|storey| {
+        let column = |line: usize| *depths_of_columns.get(storey)?.get(line)?;
+        let lines = 0..frame.lines();
+        let depths = lines.map(|line| walls(storey, line).or(column(line)).unwrap_or(0.0));
+        depths.collect()
+    });
+    let of_beams = depths_of_beams.into_iter();
+    let of_beams = of_beams.map(|row| row.into_iter().map(Option::unwrap_or_default).collect());
     Reinforced {
-        columns: of(Member::Column),
-        beams: of(Member::Beam),
+        columns,
+        beams,
+        depths: [depths.collect(), of_beams.collect()],
     }
+}
+
+/// Depth in the table of a column or beam \[m\].
+fn depth_in(reader: &mut Reader<'_>, field: &Field<'_>, member: Member) -> Option<f64> {
+    let view = reader.reopen(field, sections(member))?;
+    section::depth_of(reader, &view)
 }
 
 fn read_one(
@@ -437,13 +452,20 @@ pub(super) fn members(
     let Structure::Frame(frame) = &building.structure else {
         return Ok(KnownMembers::default());
     };
-    let carried = if reinforced.asks_gravity() {
-        column_loads(building)?
-    } else {
-        Vec::new()
-    };
-    let load = |_: &str, [storey, place]: FramePlace| carried[storey][place];
-    Ok(of_frame(index, "", frame, reinforced, load))
+    let carried = carried(building, reinforced.asks_gravity())?;
+    Ok(of_frame(index, "", frame, reinforced, &carried))
+}
+
+/// Compression of the members of a building by name, empty where it is not asked for \[N\].
+///
+/// # Errors
+/// A text when the building cannot stand.
+fn carried(building: &Building, is_asked: bool) -> Result<BTreeMap<String, f64>, String> {
+    if !is_asked {
+        return Ok(BTreeMap::new());
+    }
+    let carried = compressions_of_members(building).map_err(|_| DOES_NOT_STAND.to_owned())?;
+    Ok(carried.into_iter().collect())
 }
 
 /// Those of a frame in a plan. `loads`: compressions of columns by name, zero where there is none \[N\].
@@ -453,8 +475,7 @@ pub(super) fn loaded(
     name: &str,
     loads: &BTreeMap<String, f64>,
 ) -> KnownMembers {
-    let load = |name: &str, _: FramePlace| loads.get(name).copied().unwrap_or(0.0);
-    of_frame(0, &format!("{name}."), frame, reinforced, load)
+    of_frame(0, &format!("{name}."), frame, reinforced, loads)
 }
 
 /// The same of a sound building with a plan: of its frames at lines of the plan, and of its space frame.
@@ -471,25 +492,24 @@ pub(super) fn members_in_plan(
     };
     let frames = reinforced.frames.iter();
     let asks_gravity = frames.clone().any(Reinforced::asks_gravity);
-    let carried: BTreeMap<String, f64> = if asks_gravity || !reinforced.members.is_empty() {
-        let carried = compressions_of_members(building).map_err(|_| DOES_NOT_STAND.to_owned())?;
-        carried.into_iter().collect()
-    } else {
-        BTreeMap::new()
-    };
-    let load = |name: &str| carried.get(name).copied().unwrap_or(0.0);
+    let carried = carried(building, asks_gravity || !reinforced.members.is_empty())?;
     let mut members = KnownMembers::default();
     for (frame, reinforcement) in tiers.frames.iter().zip(frames) {
         let name = format!("{}.", frame.name);
-        let load = |name: &str, _: FramePlace| load(name);
-        members.append(of_frame(index, &name, &frame.frame, reinforcement, load));
+        members.append(of_frame(
+            index,
+            &name,
+            &frame.frame,
+            reinforcement,
+            &carried,
+        ));
     }
     if let Some(frame) = &tiers.space_frame {
         let places = frame.members.iter();
         let laid = places.filter_map(|place| Some((place, reinforced.members.get(&place.place)?)));
         for (member, known) in laid {
             let name = member.place.to_string();
-            let compression = load(&name);
+            let compression = carried.get(&name).copied().unwrap_or(0.0);
             let heights = &tiers.storey_heights;
             match known {
                 KnownSection::Bars(read) => {
@@ -561,8 +581,10 @@ fn in_space(
             true => storey.checked_sub(1),
             false => Some(storey),
         };
-        let depths = met(below, first, axis) + met(Some(storey), last, axis);
-        clear(length, 0.5 * depths)
+        clear(
+            length,
+            [met(below, first, axis), met(Some(storey), last, axis)],
+        )
     };
     let along = match place {
         SpacePlace::BeamY { .. } => PlanAxis::Y,
@@ -600,37 +622,35 @@ impl Reinforced {
     }
 
     /// Whether a column takes its load from gravity.
-    fn asks_gravity(&self) -> bool {
+    pub(super) fn asks_gravity(&self) -> bool {
         let mut laid = self.columns.iter().flatten().flatten();
         laid.any(|laid| laid.axial == Axial::FromGravity)
     }
 }
 
-/// The members of known strength of a plane frame. `prefix`: what stands before their names; `load`: compression of a column by name and by
-/// storey and line, where it follows from gravity \[N\].
+/// The members of known strength of a plane frame. `prefix`: what stands before their names; `carried`: compressions of columns by name, zero
+/// where there is none \[N\].
 fn of_frame(
     index: usize,
     prefix: &str,
     frame: &Frame,
     reinforced: &Reinforced,
-    load: impl Fn(&str, FramePlace) -> f64,
+    carried: &BTreeMap<String, f64>,
 ) -> KnownMembers {
-    // Depths of what frames into a member, where it is known.
-    let depth = |list: &[Vec<Option<Laid>>], row: Option<usize>, place: Option<usize>| {
-        let laid = row
-            .zip(place)
-            .and_then(|(row, place)| list.get(row)?.get(place)?.as_ref());
-        laid.map_or(0.0, |laid| laid.known.depth())
+    let [columns, beams] = &reinforced.depths;
+    let depth = |depths: &[Vec<f64>], row: Option<usize>, place: Option<usize>| {
+        let depth = row.zip(place);
+        let depth = depth.and_then(|(row, place)| depths.get(row)?.get(place).copied());
+        depth.unwrap_or(0.0)
     };
     let deeper_beam = |floor: Option<usize>, line: usize| {
-        let [left, right] =
-            [line.checked_sub(1), Some(line)].map(|bay| depth(&reinforced.beams, floor, bay));
+        let [left, right] = [line.checked_sub(1), Some(line)].map(|bay| depth(beams, floor, bay));
         left.max(right)
     };
     let mut members = KnownMembers::default();
-    let columns = frame.all_columns().map(|column| (Member::Column, column));
-    let beams = frame.all_beams().map(|beam| (Member::Beam, beam));
-    for (member, ([storey, place], section)) in columns.chain(beams) {
+    let all_columns = frame.all_columns().map(|column| (Member::Column, column));
+    let all_beams = frame.all_beams().map(|beam| (Member::Beam, beam));
+    for (member, ([storey, place], section)) in all_columns.chain(all_beams) {
         let list = match member {
             Member::Column => &reinforced.columns,
             Member::Beam => &reinforced.beams,
@@ -644,20 +664,20 @@ fn of_frame(
             Member::Column => format!("{prefix}column.{at}.{floor}"),
             Member::Beam => format!("{prefix}beam.{floor}.{at}"),
         };
-        let (length, compression, depths) = match member {
+        let (length, compression, met) = match member {
             Member::Column => (
                 frame.storey_heights[storey],
                 match axial {
                     Axial::Given(force) => *force,
-                    Axial::FromGravity => load(&name, [storey, place]),
+                    Axial::FromGravity => carried.get(&name).copied().unwrap_or(0.0),
                 },
-                deeper_beam(storey.checked_sub(1), place) + deeper_beam(Some(storey), place),
+                [storey.checked_sub(1), Some(storey)].map(|floor| deeper_beam(floor, place)),
             ),
-            Member::Beam => {
-                let [left, right] = [place, place + 1]
-                    .map(|line| depth(&reinforced.columns, Some(storey), Some(line)));
-                (frame.spans[place], 0.0, left + right)
-            }
+            Member::Beam => (
+                frame.spans[place],
+                0.0,
+                [place, place + 1].map(|line| depth(columns, Some(storey), Some(line))),
+            ),
         };
         let read = match known {
             KnownSection::Bars(read) => read,
@@ -686,7 +706,7 @@ fn of_frame(
             compression,
             length,
             rigidity: section.flexural_rigidity,
-            clear_length: clear(length, 0.5 * depths),
+            clear_length: clear(length, met),
             clear_length_across: None,
             level: read.level,
             home_rule: read.home_rule,
@@ -696,27 +716,12 @@ fn of_frame(
 }
 
 /// Why columns have no load from gravity.
-const DOES_NOT_STAND: &str = "cannot be taken from gravity: the building does not stand by itself";
+const DOES_NOT_STAND: &str =
+    "cannot take its load from gravity: the building does not carry its own weight";
 
-/// Length between faces; never less than a fifth of that between axes \[m\].
-fn clear(length: f64, depths: f64) -> f64 {
-    (length - depths).max(0.2 * length)
-}
-
-/// Compression at the foot of every column, by storey and column line; zero where there is none \[N\].
-fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
-    let Structure::Frame(frame) = &building.structure else {
-        return Ok(Vec::new());
-    };
-    let system = BuildingSystem::new(&building.name, Discretization::new(building));
-    let compressions =
-        compressions(&system, STANDARD_GRAVITY).map_err(|_| DOES_NOT_STAND.to_owned())?;
-    let mut loads = vec![vec![0.0; frame.lines()]; frame.storey_heights.len()];
-    for member in &system.discretization.members {
-        if let MemberPlace::Column { line, storey } = member.place {
-            // The lowest element is the first.
-            loads[storey - 1][line - 1] = compressions[member.elements.start];
-        }
-    }
-    Ok(loads)
+/// Length between the faces of what meets the two ends of a member, whether that has bars or not; never less than a fifth of that between
+/// axes. `met`: the greatest depth at either end \[m\].
+fn clear(length: f64, met: [f64; 2]) -> f64 {
+    let [first, last] = met;
+    (length - 0.5 * (first + last)).max(0.2 * length)
 }

@@ -231,7 +231,7 @@ fn read_section(
 }
 
 /// Size of a rectangle or a profile in the direction of bending. Faults are noted where the section is read.
-fn depth_of(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
+pub(super) fn depth_of(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
     reader.quietly(|reader| match reader.get(view, "profile") {
         Some(field) => steel_profile::depth(reader, view, &field),
         None => {

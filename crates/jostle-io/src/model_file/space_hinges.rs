@@ -6,9 +6,8 @@ use jostle_section::capacity::SteelMember;
 
 use super::building::has_length;
 use super::fibre_hinges::{self, AskedFibres};
-use super::hinges::{
-    Asked, Initial, Stated, YIELDS_WHERE, note, read_initial, read_moments, read_rule, read_rule_at,
-};
+use super::hinge_stiffness::{Initial, read_initial};
+use super::hinges::{Asked, Stated, YIELDS_WHERE, note, read_moments, read_rule, read_rule_at};
 use super::reinforced;
 use super::surface_hinges::{self, AskedSurfaces};
 use crate::keys::Section;

@@ -13,6 +13,7 @@ mod kinds_agree;
 mod long_histories;
 mod loose_tolerance;
 mod member_capacity;
+mod one_definition;
 mod plain_words;
 mod registry;
 mod shear_failure;

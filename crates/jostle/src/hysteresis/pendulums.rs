@@ -135,6 +135,17 @@ enum Motion {
     AtRim,
 }
 
+/// Energy of the elastic spring and of the bowls, up which stages have slid along one axis \[J\].
+pub(super) fn stored_energy(
+    backbone: &Backbone,
+    stages: &[SlidingStage; 3],
+    memory: &HysteresisMemory,
+) -> f64 {
+    let bowls = stages.iter().zip(memory.offsets);
+    let bowls = bowls.map(|(stage, place)| stage.stiffness * place * place);
+    0.5 * (memory.force * memory.force / backbone.initial() + bowls.sum::<f64>())
+}
+
 pub(super) fn answer(
     backbone: &Backbone,
     stages: &[SlidingStage; 3],

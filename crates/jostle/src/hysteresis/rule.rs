@@ -10,7 +10,7 @@ use super::memory::{Branch, HysteresisMemory, Response, Stage};
 use super::menegotto_pinto::{self, MenegottoPinto};
 use super::pendulums::{self, SlidingStage};
 use super::pinched::{self, Pinching};
-use super::surface::KeptCorners;
+use super::surface::{self, KeptCorners};
 use super::{compression, degrading, oriented, sliders};
 
 /// Exponent of the unloading stiffness of Takeda's rule after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
@@ -743,12 +743,32 @@ impl Hysteresis {
         }
     }
 
-    /// Energy that unloading to zero force would release, F² / 2k, ≥ 0 \[J\]. The work done on the spring minus
-    /// this energy is dissipated.
+    /// Stored energy, ≥ 0 \[J\]. The work done on the spring minus this energy is dissipated, and is never got back.
+    ///
+    /// Of rules with kinematic hardening, it is that of their elastic springs, those in series with sliders and the bowls of pendulums
+    /// included; of others, what unloading to zero force would release, F² / 2k.
     #[must_use]
     pub fn recoverable_energy(&self, memory: &HysteresisMemory) -> f64 {
-        if memory.force == 0.0 {
-            return 0.0;
+        match self.rule {
+            HysteresisRule::Bilinear | HysteresisRule::Normal => {
+                return sliders::stored_energy(&self.backbone, memory);
+            }
+            // Without force.
+            HysteresisRule::Surface {
+                row: ForceRow::Between,
+                ..
+            }
+            | HysteresisRule::SpaceSurface { row: 3.., .. } => return 0.0,
+            HysteresisRule::Surface { .. } | HysteresisRule::SpaceSurface { .. } => {
+                return surface::stored_energy(&self.backbone, memory);
+            }
+            HysteresisRule::Pendulums(stages)
+            | HysteresisRule::InPlan {
+                law: CircularLaw::Pendulums(stages),
+                row: ForceRow::X | ForceRow::Y,
+            } => return pendulums::stored_energy(&self.backbone, &stages, memory),
+            _ if memory.force == 0.0 => return 0.0,
+            _ => {}
         }
         0.5 * memory.force * memory.force / self.unloading_stiffness(memory)
     }

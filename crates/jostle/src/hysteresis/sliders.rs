@@ -101,6 +101,16 @@ pub(super) fn respond(
     }
 }
 
+/// Energy of the springs, ≥ 0 \[J\]. The rest of the work was done by sliders that slip.
+pub(super) fn stored_energy(backbone: &Backbone, memory: &HysteresisMemory) -> f64 {
+    let last = backbone.side(Side::Positive).post_yield;
+    let springs = sliders(backbone).into_iter().zip(memory.offsets);
+    let springs = springs.map(|(slider, offset)| (slider.stiffness, offset));
+    let energy =
+        |(stiffness, offset): (f64, f64)| 0.5 * stiffness * (memory.deformation - offset).powi(2);
+    springs.chain([(last, 0.0)]).map(energy).sum()
+}
+
 pub(super) fn next_corner(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> f64 {
     let sign = towards.sign();
     sliders(backbone)

@@ -57,6 +57,13 @@ pub(crate) enum Flow {
     Corner,
 }
 
+/// Energy of a point with p = r k q + s: that of r k, and that of the rest, which s strains \[J\].
+pub(super) fn stored_energy(backbone: &Backbone, memory: &HysteresisMemory) -> f64 {
+    let kept = backbone.side(Side::Positive).post_yield;
+    let inner = memory.force - kept * memory.deformation;
+    0.5 * (kept * memory.deformation.powi(2) + inner * inner / (backbone.initial() - kept))
+}
+
 impl Hysteresis {
     /// The three rows of a section that yields on a surface, and the distance ℓ of its points \[m\].
     ///

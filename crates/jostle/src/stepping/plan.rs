@@ -494,19 +494,23 @@ fn refused_vertical(system: &System, analysis: &Analysis) -> Option<ModelFault> 
             problem: "no mass moves vertically: neither shear buildings nor frames with rigid columns have such masses; use frames with axial = { columns = \"flexible\" } or beam_segments, or leave vertical out".into(),
         });
     }
-    let mut buildings = system.buildings.iter();
     let asked = analysis.members.envelopes;
-    let followed = buildings.any(|building| {
-        let mut forms = building.members.forms.iter();
-        forms.any(|form| asked || form.is_by_equilibrium())
-    });
-    followed.then(|| ModelFault {
-        path: if asked { "output.members" } else { "motion.vertical" }.into(),
-        problem: match asked {
-            true => "forces of columns and beams do not include vertical inertia forces yet; leave out members, or vertical under [motion]",
-            false => "forces of braces, panels, walls and fibres do not include vertical inertia forces yet; leave vertical out, or those parts",
-        }
-        .into(),
+    let lacks_inertia = |building: &&BuildingSystem| {
+        let followed = &building.members;
+        followed.forms.iter().any(|form| form.carries)
+            || asked && !building.moves_vertically() && !followed.is_empty()
+    };
+    let building = system.buildings.iter().find(lacks_inertia)?;
+    let [path, leave_out] = match asked {
+        true => ["output.members", "members"],
+        false => ["motion.vertical", "walls"],
+    };
+    Some(ModelFault {
+        path: path.into(),
+        problem: format!(
+            "columns and walls of \"{}\" keep their length, and their forces then do not include vertical inertia forces; let them shorten, axial = {{ columns = \"flexible\" }}, or leave out {leave_out}, or vertical under [motion]",
+            building.name
+        ),
     })
 }
 

@@ -675,14 +675,6 @@ pub(super) fn discretize_frame(
                 stick_model.face(left, arms[0]),
                 stick_model.face(right, -arms[1]),
             ];
-            let mut beam = *beam;
-            let coupling = frame.coupling_beam([storey, bay]);
-            if let Some(hysteresis) = coupling.and_then(|coupling| coupling.shear) {
-                ends[0] = stick_model.add_sliding(ends[0], Y, hysteresis);
-                beam.shear_rigidity = None;
-                let (floor, span) = (storey + 1, bay + 1);
-                row_places.push(SpringPlace::sliding(MemberPlace::Beam { floor, span }));
-            }
             for (node, line) in ends.iter_mut().zip([bay, bay + 1]) {
                 if !frame.is_continuous(storey + 1, line) {
                     *node = stick_model.hinged(*node, &frame.joint);
@@ -699,14 +691,33 @@ pub(super) fn discretize_frame(
                 }
             }
             let first = stick_model.members.len();
-            stick_model.add_line(
-                ends[0],
-                ends[1],
-                &equal_cuts(frame.beam_segments[bay]),
-                frame.beam_mass[storey],
-                &beam,
-                frame.axial.beams_flexible,
-            );
+            let cuts = equal_cuts(frame.beam_segments[bay]);
+            let coupling = frame.coupling_beam([storey, bay]);
+            let (beam, parts) = match coupling.and_then(|coupling| coupling.shear) {
+                None => (*beam, vec![(ends, cuts)]),
+                Some(hysteresis) => {
+                    let (floor, span) = (storey + 1, bay + 1);
+                    row_places.push(SpringPlace::sliding(MemberPlace::Beam { floor, span }));
+                    let rigid_in_shear = Section {
+                        shear_rigidity: None,
+                        ..*beam
+                    };
+                    (
+                        rigid_in_shear,
+                        stick_model.slide_at_middle(ends, &cuts, hysteresis),
+                    )
+                }
+            };
+            for (part_ends, cuts) in parts {
+                stick_model.add_line(
+                    part_ends[0],
+                    part_ends[1],
+                    &cuts,
+                    frame.beam_mass[storey],
+                    &beam,
+                    frame.axial.beams_flexible,
+                );
+            }
             for (at, joint) in [left, right].into_iter().enumerate() {
                 if arms[at] > 0.0 {
                     let between = arms[at] * frame.beam_mass[storey];

@@ -7,6 +7,9 @@ use super::{Discretization, MemberPlace};
 use crate::hysteresis::Hysteresis;
 use crate::model::ProportionalDamping;
 
+/// Cuts closer than this to the middle of a beam are there, as a fraction of its half \[–\].
+const AT_MIDDLE: f64 = 1e-9;
+
 /// A part of a frame, which may be one of several that stand in a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InFrame<T> {
@@ -100,6 +103,28 @@ impl StickModel {
         let mass = node.mass;
         node.add_mass(-mass);
         self.nodes[joint].add_mass(mass + between);
+    }
+
+    /// Lets a beam slide at its middle, where its masses are the same on both sides. Returns its halves: their ends, and where they are
+    /// cut, as fractions of their lengths.
+    pub(super) fn slide_at_middle(
+        &mut self,
+        ends: [usize; 2],
+        cuts: &[f64],
+        hysteresis: Hysteresis,
+    ) -> Vec<([usize; 2], Vec<f64>)> {
+        let [a, b] = ends.map(|end| self.nodes[end]);
+        let middle = self.add_node(0.5 * (a.x + b.x), 0.5 * (a.y + b.y));
+        let beyond = self.add_sliding(middle, Y, hysteresis);
+        // An even number of segments has a cut there already.
+        let doubled: Vec<f64> = cuts.iter().map(|cut| 2.0 * cut).collect();
+        let before = doubled.iter().copied().filter(|cut| *cut < 1.0 - AT_MIDDLE);
+        let after = doubled.iter().map(|cut| cut - 1.0);
+        let after = after.filter(|cut| *cut > AT_MIDDLE);
+        vec![
+            ([ends[0], middle], before.collect()),
+            ([beyond, ends[1]], after.collect()),
+        ]
     }
 
     /// Lets a member slide across its axis against a joint by a spring, which is all of its shear deformation; returns the node at the

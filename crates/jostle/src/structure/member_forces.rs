@@ -201,6 +201,8 @@ pub struct LinearForm {
     pub(crate) ground: f64,
     /// Force of self weight beyond that of the displacements at rest \[N\].
     pub(crate) constant: f64,
+    /// Whether it carries masses by vertical equilibrium; their vertical inertia is no part of it.
+    pub(crate) carries: bool,
     /// Floor whose left face lies in the cut-off part, from 0: what pushes it reduces the force.
     pub(crate) left_face: Option<usize>,
     /// Contacts and links that push there, as indices of the system.
@@ -242,11 +244,6 @@ impl LinearForm {
             sum -= self.links.iter().map(|index| link(*index)).sum::<f64>();
         }
         sum
-    }
-
-    /// Whether it is found by equilibrium of masses rather than by deformations.
-    pub(crate) fn is_by_equilibrium(&self) -> bool {
-        !self.acceleration.is_empty() || self.ground != 0.0 || self.constant != 0.0
     }
 
     /// Whether displacements and self weight alone determine it.
@@ -720,7 +717,10 @@ impl<'a> Cuts<'a> {
         let top = stick_model.nodes[cut.ends[1]];
         let line = stick_model.turn(cut.ends[1]);
         let equations = &self.building.equations;
-        let mut form = LinearForm::default();
+        let mut form = LinearForm {
+            carries: true,
+            ..LinearForm::default()
+        };
         for (index, node) in stick_model.nodes.iter().enumerate() {
             // Faces of a wall are on the line of its axis.
             let turn = stick_model.turn(index);
@@ -806,6 +806,7 @@ impl LinearForm {
             springs: self.springs.plus(&other.springs),
             ground: self.ground + other.ground,
             constant: self.constant + other.constant,
+            carries: self.carries || other.carries,
             ..Self::default()
         }
         .tidy()
@@ -820,6 +821,7 @@ impl LinearForm {
         add(&mut self.springs, &other.springs);
         self.ground += share * other.ground;
         self.constant += share * other.constant;
+        self.carries |= other.carries;
     }
 
     pub(super) fn tidy(mut self) -> Self {

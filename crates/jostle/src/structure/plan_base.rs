@@ -266,6 +266,10 @@ impl StickModel {
             .map_or(along, |foundation| foundation.rotary_inertia);
         let raised = if base.lifts() { mass } else { 0.0 };
         let rocking = self.add_leaning([along, across, raised]);
+        if base.lifts() {
+            // It rises even where it does not sway, so the node that rises counts its mass.
+            self.nodes[rocking].mass = std::mem::take(&mut self.nodes[node].mass);
+        }
         if let Some(plan_base) = &mut self.plan_base {
             plan_base.rocking = Some(rocking);
         }

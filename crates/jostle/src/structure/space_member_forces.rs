@@ -431,7 +431,10 @@ impl JointedCuts<'_> {
         for column in rigid {
             let storey = members[column].place.storey();
             let [line, _] = members[column].place.crossings();
-            let mut sum = LinearForm::default();
+            let mut sum = LinearForm {
+                carries: true,
+                ..LinearForm::default()
+            };
             for (index, other) in members.iter().enumerate() {
                 let [first, last] = other.place.crossings();
                 if is_column(other.place) {

@@ -156,7 +156,17 @@ impl MemberForces {
             let Some(member) = discretization.member_at(coupling_beam.frame, place) else {
                 continue;
             };
-            let [_, shear, _] = cuts.at_foot(member);
+            let sliding = SpringPlace::sliding(place);
+            let shear = match discretization.spring_at(coupling_beam.frame, sliding) {
+                Some(spring) => LinearForm {
+                    springs: Row::single(spring),
+                    ..LinearForm::default()
+                },
+                None => {
+                    let [_, shear, _] = cuts.at_foot(member);
+                    shear
+                }
+            };
             let shear = self.index_of(shear);
             let (row, length) = chord(building, member.elements.clone());
             let chord = self.index_of(LinearForm {

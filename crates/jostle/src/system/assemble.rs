@@ -648,7 +648,10 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
                 let mut face = system_building.discretization.right_face.iter().copied();
                 face.find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
             }
-            None => system_building.discretization.base_node(),
+            None => {
+                let base = system_building.discretization.base_node();
+                base.filter(|&node| system_building.equations.horizontal(node).is_some())
+            }
         };
         let port = |node| {
             let port = system.port(building, node);

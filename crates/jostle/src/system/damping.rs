@@ -2,7 +2,9 @@
 
 use super::building::{BuildingSystem, Direction};
 use crate::eigen::{LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, sway_modes, symmetric};
+use crate::linear::Row;
 use crate::model::{Damping, ProportionalDamping, Sway, usual_damping_modes};
+use crate::structure::element::{Place, THETA, X, Y, index_of};
 use crate::structure::{AssembledBuilding, Influence, InnerLink, PlanBase, SpringPlace};
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -148,17 +150,17 @@ impl BuildingSystem {
         sways.iter().map(of_mode).collect()
     }
 
-    /// The same across, with motion along and rotation of floors held.
+    /// The same across, with motion along and rotation of floors and of the base held.
     fn modes_across(&self, count: usize) -> Vec<DampedMode> {
-        let equations = &self.equations;
-        let is_held = |dof: usize| {
-            let mut tracks = self.tracks.iter();
-            tracks
-                .any(|track| track.direction != Direction::Across && track.dof - self.offset == dof)
-        };
+        let on_base = self.with_base_held_but_across();
+        let building = on_base.as_ref().unwrap_or(&self.structure);
+        let equations = &building.equations;
+        let floors = building.discretization.floors.iter();
+        let places = floors.flat_map(|floor| [X, THETA].map(|component| (*floor, component)));
+        let held_dofs: Vec<usize> = places.filter_map(|place| equations.dof(place)).collect();
         let massed = (0..equations.len()).filter(|dof| equations.mass[*dof] > 0.0);
-        let held: Vec<bool> = massed.map(is_held).collect();
-        let modes = modes_dense(&self.structure, |lower| Some(symmetric::held(lower, &held)));
+        let held: Vec<bool> = massed.map(|dof| held_dofs.contains(&dof)).collect();
+        let modes = modes_dense(building, |lower| Some(symmetric::held(lower, &held)));
         let modes = modes.unwrap_or_default();
         let has_share = |mode: &&Mode| mode.effective_mass_ratio_across >= LATERAL_SHARE;
         let mut across: Vec<&Mode> = modes.iter().filter(has_share).collect();
@@ -167,7 +169,34 @@ impl BuildingSystem {
             across = modes.iter().filter(is_sway).collect();
         }
         let across = across.into_iter();
-        across.map(|mode| DampedMode::new(mode, self)).collect()
+        across.map(|mode| DampedMode::new(mode, building)).collect()
+    }
+
+    /// The building on a base that neither moves along, nor turns about the vertical axis, nor rises; `None` without springs under it.
+    fn with_base_held_but_across(&self) -> Option<AssembledBuilding> {
+        let mut held = self.discretization.clone();
+        let base = held.stick_model.plan_base?;
+        for node in base.nodes() {
+            let places = [X, THETA].map(|component| index_of((node, component)));
+            let still = places.map(|place| (place, Row::default()));
+            held.stick_model.ties.extend(still);
+        }
+        let mut held = AssembledBuilding::new(&self.name, held);
+        // Links act on floors.
+        let floors = self.discretization.floors.iter();
+        let places = floors.flat_map(|floor| [X, Y, THETA].map(|component| (*floor, component)));
+        let places: Vec<Place> = places.collect();
+        let moved = |(dof, share): &(usize, f64)| {
+            let mut places = places.iter();
+            let place = places.find(|place| self.equations.dof(**place) == Some(*dof))?;
+            Some((held.equations.dof(*place)?, *share))
+        };
+        let links = self.inner_links.iter().map(|link| InnerLink {
+            shortening: link.shortening.entries().iter().filter_map(moved).collect(),
+            ..link.clone()
+        });
+        held.inner_links = links.collect();
+        Some(held)
     }
 
     /// Whether its floors are all that moves: neither joints of frames nor a base.

@@ -75,8 +75,9 @@ fn in_storeys(model: &Model, outcome: &Outcome) -> f64 {
     storeys.map(|(u, k)| 0.5 * k * (u[1] - u[0]).powi(2)).sum()
 }
 
-/// What the bearings have dissipated is the area of their loops without what they would give back: F²/2K₁ of a bilinear spring; of
-/// a pendulum with friction that changes, W u²/2R and f²/2k of the slider. All is elastic above them, and stops give all back.
+/// What the bearings have dissipated is the area of their loops without what they store: K₂u²/2 of the stiffness after yield, W/R of a
+/// pendulum, and f²/2k of what slides beside it; of several surfaces that of every bowl and F²/2k. All is elastic above them, and stops
+/// give all back.
 #[test]
 fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
     let stop = Stop {
@@ -111,7 +112,15 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
         let force = end(Column::support_force(0));
         let moved = end(Column::displacement(0, 0));
         let stored = match isolator {
-            Isolator::LeadRubber { stiffness, .. } => 0.5 * force * force / stiffness,
+            Isolator::LeadRubber {
+                stiffness,
+                post_yield,
+                ..
+            } => {
+                let second = post_yield * stiffness;
+                let held = force - second * moved;
+                0.5 * second * moved * moved + 0.5 * held * held / (stiffness - second)
+            }
             Isolator::Pendulum {
                 radius,
                 friction,
@@ -119,19 +128,22 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
             } => {
                 let (second, slider) =
                     (weight / radius, friction.fast * weight / slip_displacement);
-                if friction.is_constant() {
-                    0.5 * force * force / (second + slider)
-                } else {
-                    let held = force - second * moved;
-                    0.5 * second * moved * moved + 0.5 * held * held / slider
-                }
+                let held = force - second * moved;
+                0.5 * second * moved * moved + 0.5 * held * held / slider
             }
             Isolator::DoublePendulum {
                 surfaces,
                 slip_displacement,
             } => {
                 let [first, second] = surfaces.map(|surface| surface.friction);
-                0.5 * force * force * slip_displacement / (first.min(second) * weight)
+                let elastic = first.min(second) * weight / slip_displacement;
+                let springs = &system.buildings[0].equations.springs;
+                let places = springs[0].hysteresis.places(&outcome.state.springs[0]);
+                let sum = places.iter().sum::<f64>() + force / elastic;
+                assert!((sum - moved).abs() < 1e-9, "{sum} m and {moved} m");
+                let bowls = surfaces.iter().zip(places);
+                let bowls = bowls.map(|(surface, at)| 0.5 * weight / surface.radius * at * at);
+                0.5 * force * force / elastic + bowls.sum::<f64>()
             }
             Isolator::Linear { .. }
             | Isolator::HighDampingRubber { .. }
