@@ -318,8 +318,8 @@ def _drop_fillers(mass: _Array, turns: npt.NDArray[np.bool_], height: float, nod
     if (diagonal < 0.0).any():
         raise _fault(f"{_who(nodes, np.flatnonzero(diagonal < 0.0))} has a negative mass")
     largest = float(diagonal[~turns].max(initial=0.0))
-    # A mass that turns is compared with the largest one at a thousandth of the height.
-    least = np.where(turns, _FILLER * largest * (1e-3 * height) ** 2, _FILLER * largest)
+    # A rotary mass is compared with the largest mass at a tenth of the height.
+    least = np.where(turns, _FILLER * largest * (0.1 * height) ** 2, _FILLER * largest)
     fillers = diagonal < least
     mass[fillers, :] = 0.0
     mass[:, fillers] = 0.0
@@ -656,11 +656,14 @@ def _periods(
 
 
 def _natural(mass: _Array, stiffness: _Array) -> _Array:
-    """Periods, longest first [s]."""
+    """Periods, longest first [s].
+
+    They are eigenvalues of K⁻¹ M: those of M⁻¹ K lose the digits of the longest periods to the shortest.
+    """
     import numpy as np
 
-    factor = np.linalg.cholesky(mass)
-    half = np.linalg.solve(factor, stiffness)
+    factor = np.linalg.cholesky(stiffness)
+    half = np.linalg.solve(factor, mass)
     squares = np.linalg.eigvalsh(np.linalg.solve(factor, half.T))
-    periods: _Array = 2.0 * math.pi / np.sqrt(np.maximum(squares, 1e-300))
+    periods: _Array = 2.0 * math.pi * np.sqrt(np.maximum(squares[::-1], 0.0))
     return periods

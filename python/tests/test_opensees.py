@@ -16,6 +16,7 @@ import pytest
 
 import jostle
 from jostle import _opensees_file
+from jostle._opensees_matrices import read_model
 
 try:
     with contextlib.redirect_stderr(io.StringIO()):
@@ -198,6 +199,49 @@ def test_masses_without_a_place_to_hit_are_named() -> None:
 def test_masses_of_fillers_count_as_none() -> None:
     portal(up=1e-10)
     assert np.shape(quietly(ops, side="left", units="kN, m").to_dict()["matrices"]["mass"]) == (2,)
+
+
+def frame_of_three_storeys(filler: float) -> None:
+    """Two bays of 20 ft, three storeys of 12 ft, in kip and in; vertical and rotary masses of every node as given."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("Linear", 1)
+    for level in range(4):
+        for line in range(3):
+            ops.node(10 * level + line, 240.0 * line, 144.0 * level)
+    for line in range(3):
+        ops.fix(line, 1, 1, 1)
+    tag = 0
+    for level in range(1, 4):
+        for line in range(3):
+            tag += 1
+            node = 10 * level + line
+            ops.element("elasticBeamColumn", tag, node - 10, node, 26.5, 29000.0, 999.0, 1)
+            ops.mass(node, 40.0 / 386.089, filler, filler)
+        for line in range(2):
+            tag += 1
+            node = 10 * level + line
+            ops.element("elasticBeamColumn", tag, node, node + 1, 16.2, 29000.0, 1350.0, 1)
+        for line in (1, 2):
+            ops.equalDOF(10 * level, 10 * level + line, 1)
+
+
+@pytest.mark.parametrize("filler", [1e-12, 1e-9, 1e-6])
+def test_periods_printed_are_those_without_fillers(filler: float, tmp_path: Path) -> None:
+    frame_of_three_storeys(0.0)
+    ops.constraints("Transformation")
+    exact = own_periods(3)
+    assert exact == pytest.approx([0.62839, 0.19502, 0.11236], abs=5e-6)
+    frame_of_three_storeys(filler)
+    read = read_model(ops, 1, "right", "kip, in", None, None, None)
+    assert read.periods is not None
+    # Below the limit masses are omitted. Above it they are part of the model, and change its periods by parts of a million.
+    if filler < 1e-8 * 40.0 / 386.089:
+        assert len(read.mass) == 3
+        assert read.periods == pytest.approx(exact, rel=1e-9)
+    else:
+        assert len(read.mass) == 12
+        assert read.periods[:3] == pytest.approx(own_periods(3), rel=1e-6)
 
 
 def refuse(match: str, **options: Any) -> None:

@@ -86,10 +86,15 @@ const fit = () => {
   canvas.width = Math.round(canvas.clientWidth * ratio);
   canvas.height = Math.round(canvas.clientHeight * ratio);
 };
+// Whether the map shows the whole city, also after its size changes.
+let shows_all = true;
 const whole_city = () => {
-  scale = 0.96 * Math.min(canvas.width / (all[2] - all[0] || 1), canvas.height / (all[3] - all[1] || 1));
+  shows_all = true;
+  // Below it, the length of the scale has a strip of its own.
+  const strip = 40 * (devicePixelRatio || 1), height = Math.max(canvas.height - strip, 1);
+  scale = 0.96 * Math.min(canvas.width / (all[2] - all[0] || 1), height / (all[3] - all[1] || 1));
   left = (all[0] + all[2]) / 2 - canvas.width / 2 / scale;
-  top = (all[1] + all[3]) / 2 + canvas.height / 2 / scale;
+  top = (all[1] + all[3]) / 2 + height / 2 / scale;
 };
 const outline = (at) => {
   for (let k = starts[at]; k < starts[at + 1]; k += 2) {
@@ -213,13 +218,14 @@ const at_pointer = (event) => {
   return -1;
 };
 const zoom = (factor, px, py) => {
+  shows_all = false;
   const gx = left + px / scale, gy = top - py / scale;
   scale = Math.min(60 * (devicePixelRatio || 1), Math.max(0.5 * Math.min(canvas.width / (all[2] - all[0] || 1), canvas.height / (all[3] - all[1] || 1)), scale * factor));
   left = gx - px / scale; top = gy + py / scale;
   draw();
 };
 const show_building = (at, other = -1) => {
-  chosen = at; mate = other;
+  chosen = at; mate = other; shows_all = false;
   const b = 4 * at;
   scale = Math.max(scale, 4 * (devicePixelRatio || 1));
   left = (boxes[b] + boxes[b + 2]) / 2 - canvas.width / 2 / scale;
@@ -232,7 +238,7 @@ canvas.addEventListener("pointermove", (event) => {
   if (!drag) return;
   const ratio = devicePixelRatio || 1, dx = event.clientX - drag.x, dy = event.clientY - drag.y;
   if (!drag.moved && Math.hypot(dx, dy) < 4) return;
-  drag.moved = true; drag.x = event.clientX; drag.y = event.clientY;
+  drag.moved = true; shows_all = false; drag.x = event.clientX; drag.y = event.clientY;
   left -= dx * ratio / scale; top += dy * ratio / scale;
   draw();
 });
@@ -255,7 +261,7 @@ for (const row of document.querySelectorAll(".worst tbody tr")) {
   row.addEventListener("click", () => { go(); canvas.scrollIntoView({ block: "nearest" }); });
   row.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
 }
-addEventListener("resize", () => { fit(); draw(); });
+new ResizeObserver(() => { fit(); if (shows_all) whole_city(); draw(); }).observe(canvas);
 new MutationObserver(told).observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", told);
 fit(); whole_city(); told();

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use jostle_classes::{Level, Types};
+use jostle_io::TypesTables;
+
 use crate::blocks::{Block, blocks};
 use crate::fault::CityError;
 use crate::inventory::{Inventory, ReadOptions};
@@ -37,6 +40,31 @@ impl Footprints {
             blocks,
             reach,
         })
+    }
+
+    /// Refuses types that a run would not know. `path` names the inventory, `table` the user's own table of types.
+    ///
+    /// # Errors
+    /// When the table cannot be used, or a building has a type that it lacks.
+    pub fn check_types(&self, path: &Path, table: Option<&Path>) -> Result<(), CityError> {
+        let tables = TypesTables {
+            types: table.map(Path::to_owned),
+            ..TypesTables::default()
+        };
+        let types = Types::read(&tables).map_err(CityError::Input)?;
+        for building in &self.inventory.buildings {
+            let Some(kind) = &building.kind else {
+                continue;
+            };
+            // The city file chooses the level.
+            let of_level = |level| types.of(kind, building.likely_storeys(), level).err();
+            let problems: Option<Vec<String>> = Level::ALL.into_iter().map(of_level).collect();
+            if let Some(problem) = problems.and_then(|all| all.into_iter().next()) {
+                let row = building.row;
+                return Err(CityError::of(path, format!("row {row}: {problem}")));
+            }
+        }
+        Ok(())
     }
 
     /// Buildings that have a neighbour.

@@ -328,6 +328,14 @@ impl City {
                 "A building with a neighbour is struck with a probability of " (percent(struck)) " in this shaking ("
                 (shaken) ", " (self.file.draws) " draws)."
             }
+            @if let Some(at) = order.first() {
+                @let [left, right] = self.neighbours.pairs[*at].buildings;
+                @let own = &answers.pairs[*at];
+                p { "Most critical pair: " a href="#pairs" { "number " (at) }
+                    ", " (self.inventory.buildings[left].id) " and " (self.inventory.buildings[right].id)
+                    ", which collide with a probability of " (percent(own.struck))
+                    ". Contact worsens a damage state in " (of_samples(own.worse * own.samples as f64, own.samples)) " samples." }
+            }
             div.tiles {
                 @for (name, value, note) in &tiles {
                     div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
@@ -364,7 +372,7 @@ impl City {
                     "Other layers are shares of the samples that were run: one sample of a building is "
                     (percent(1.0 / (self.file.draws as f64 * motions.len() as f64).max(1.0))) "." }
             }
-            section {
+            section #pairs {
                 h2 { "Pairs to look at first" }
                 p.quiet {
                     "Counts are of samples: draws of gaps and buildings, times motions. The probability of an impact also averages over the gaps that were not drawn. "
@@ -409,12 +417,12 @@ impl City {
                 } }
             }
             section {
-                h2 { "What was known, and what was drawn" }
+                h2 { "What was known, and what was sampled" }
                 div.note {
-                    p { b { "No building's fate. " } "These are probabilities over draws: they say which kinds of neighbours deserve a look, not what will happen to one of them." }
+                    p { b { "Not a prediction for any one building. " } "These are probabilities over draws: they show which pairs to inspect, not what will happen to a particular building." }
                     p { "Known from the inventory: outlines, and storeys, height, year and type where it has them; " (mended)
                         " rows were repaired, left out or assumed, all listed in mended.csv." }
-                    p { "Drawn: gaps, lognormal with a median of " (median) " and a scatter of "
+                    p { "Sampled: gaps, lognormal with a median of " (median) " and a scatter of "
                         (self.file.gap_scatter) " (" (gaps) "); stiffness, strength, damping and contact stiffness. Maps show which buildings are adjacent, not their gaps." }
                     @if !differs.is_empty() {
                         p { "The shaking differs from place to place. " (differs.join(". ")) "." }

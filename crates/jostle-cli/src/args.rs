@@ -120,7 +120,7 @@ pub(crate) struct RunArgs {
     /// Paper size of report.pdf
     #[arg(long, value_name = "SIZE", default_value = "a4", value_parser = jostle_run::Paper::NAMES, requires = "pdf")]
     pub(crate) paper: String,
-    /// Also write an Excel workbook: summary, buildings, floors, contacts, impacts, members
+    /// Also write an Excel workbook: summary, buildings, floors, contacts, impacts, members; for one record, see --record
     #[arg(long, value_name = "FILE")]
     pub(crate) xlsx: Option<PathBuf>,
     /// Rule for the governing value of several records [default: that of the model, else that of the code under match, else

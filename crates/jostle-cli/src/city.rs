@@ -61,6 +61,9 @@ pub(crate) struct InventoryArgs {
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     inventory: InventoryArgs,
+    /// Your own table of types, as in the city file [default: HAZUS and GEM]
+    #[arg(long, value_name = "FILE")]
+    table: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -141,7 +144,11 @@ impl From<CityError> for Failure {
 
 pub(crate) fn city(command: &CityCommand) -> Result<(), Failure> {
     match command {
-        CityCommand::Check(args) => terminal::print(&told(&args.inventory.read()?)),
+        CityCommand::Check(args) => {
+            let found = args.inventory.read()?;
+            found.check_types(&args.inventory.inventory, args.table.as_deref())?;
+            terminal::print(&told(&found))
+        }
         CityCommand::Pairs(args) => pairs(args),
         CityCommand::Run(args) => run(args),
         CityCommand::Report(args) => report(&args.folder),

@@ -241,7 +241,7 @@ fn features() -> Vec<Feature> {
 /// The table in Markdown: every kind of building with every feature, and what the program says of those that are not possible.
 pub(crate) fn table() -> String {
     let mut text = String::from(
-        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model adds one feature. A cell contains `yes`, or `no` with the number\nof the error message below the table. Written by `jostle schema --combinations`.\n\n|",
+        "# What can be combined\n\nEach cell states whether a model of two buildings of the same kind accepts the feature: `yes`, or `no` with the number of the\nerror message below the table. Written by `jostle schema --combinations`.\n\n|",
     );
     let mut refusals: Vec<String> = Vec::new();
     for kind in [""].into_iter().chain(KINDS.iter().map(|kind| kind.name)) {

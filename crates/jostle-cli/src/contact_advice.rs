@@ -98,7 +98,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     if let Some(wave) = &advice.wave {
         writeln!(
             text,
-            "Waves run along the floors in {:.2} and {:.2} ms. Elastic-rod estimate: {} for {:.2} ms; restitution {:.2}.",
+            "A wave crosses the floors in {:.2} and {:.2} ms. Elastic-rod estimate: {} for {:.2} ms; restitution {:.2}.",
             1e3 * wave.transit_s[0],
             1e3 * wave.transit_s[1],
             FORCE.text(wave.peak_force_n, 1),

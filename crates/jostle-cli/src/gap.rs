@@ -128,8 +128,9 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             let bar = Bar::new(&prefix);
             let report = |progress: &GapProgress| {
                 let GapProgress { between, done, of } = progress;
-                bar.show(done / (*of).max(1) as f64, || {
-                    let runs = format!("{} of {of} runs", done.floor());
+                // The search itself shows how many runs it needs.
+                bar.show_open(done / (*of).max(1) as f64, || {
+                    let runs = format!("{} of at least {of} runs", done.floor());
                     match between {
                         Some(between) => format!("{}, {runs}", between.join(" ↔ ")),
                         None => runs,

@@ -73,6 +73,15 @@ impl Bar {
 
     /// Shows the share that is done, 0 to 1, and how far that is in words.
     pub(crate) fn show(&self, share: f64, reached: impl FnOnce() -> String) {
+        self.show_with(share, true, reached);
+    }
+
+    /// The same where more work may turn out to be needed: no remaining time is shown.
+    pub(crate) fn show_open(&self, share: f64, reached: impl FnOnce() -> String) {
+        self.show_with(share, false, reached);
+    }
+
+    fn show_with(&self, share: f64, knows_end: bool, reached: impl FnOnce() -> String) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let now = Instant::now();
         let (first, began) = *state.first.get_or_insert((share, now));
@@ -87,7 +96,7 @@ impl Bar {
         }
         let mut text = reached();
         let rate = (share - first) / (now - began).as_secs_f64().max(1e-3);
-        if rate > 0.0 {
+        if knows_end && rate > 0.0 {
             let left = Duration::from_secs_f64(((1.0 - share).max(0.0) / rate).min(1e9));
             text += &format!(", {} left", HumanDuration(left));
         }

@@ -161,6 +161,21 @@ impl Facts {
         fault(&self.files(), object, problem, remedy)
     }
 
+    /// The height of a storey in words, in m and as the file has it.
+    fn in_own_units(&self, storey: f64) -> String {
+        let own = self
+            .units
+            .and_then(|units| Some((units.length, units.length_name()?)));
+        let own = own.filter(|(length, _)| *length != 1.0);
+        let own = own.map_or_else(String::new, |(length, name)| {
+            format!(
+                ", {} {name} in the file",
+                (1e4 * storey / length).round() / 1e4
+            )
+        });
+        format!("has a height of {storey:.3} m{own}")
+    }
+
     /// Height of the base above the datum of the model \[m\].
     pub(crate) fn base_height(&self) -> f64 {
         self.base.as_ref().map_or(0.0, |base| base.1)
@@ -272,7 +287,7 @@ impl Facts {
             if !(LEAST_STOREY..MOST_STOREY).contains(&storey) && storey > 0.0 {
                 return Err(self.fault(
                     format!("storey \"{}\"", floor.name),
-                    format!("is {storey:.3} m high"),
+                    self.in_own_units(storey),
                     "check the units: of a text model, the line UNITS; of tables, their row of units or --units",
                 ));
             }

@@ -239,7 +239,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
         write_members(&mut block, name, occupied, count, &missing);
     }
     remarks.push(format!(
-        "{} columns, {} and {} pieces of beams along X and Y on {} by {} lines",
+        "{} columns; {} beam segments along X and {} along Y, on a grid of {} by {} lines",
         places[0].len(),
         places[1].len(),
         places[2].len(),

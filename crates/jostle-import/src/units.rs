@@ -35,6 +35,13 @@ impl Units {
         }
     }
 
+    /// Name of the unit of length.
+    pub(crate) fn length_name(&self) -> Option<&'static str> {
+        ["m", "cm", "mm", "in", "ft"]
+            .into_iter()
+            .find(|name| base(name).is_some_and(|(size, _)| size == self.length))
+    }
+
     /// `"kN, m, C"`.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let mut words = text.split(',').map(str::trim);

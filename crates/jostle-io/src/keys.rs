@@ -834,7 +834,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::InfillOutOfPlane, "compression", Quantity(D::Stress), "Compressive strength of the masonry along its height; that of strength by default, if given there.").usual("a masonry strength", 1e5, 5e7),
     optional(S::InfillOutOfPlane, "strength", Quantity(D::Stress), "Out-of-plane capacity as a pressure, instead of rule.").usual("a pressure on a panel", 100.0, 1e5),
     required(S::InfillOutOfPlane, "density", Quantity(D::Density), "Density of the panel, including plaster.").usual("a masonry density", 300.0, 2600.0),
-    default(S::InfillOutOfPlane, "remove", Flag, "false", "Whether the panel falls out, and is removed from the model, when the out-of-plane inertia force first exceeds the capacity. Its struts then carry no force; the mass of the building does not change."),
+    default(S::InfillOutOfPlane, "remove", Flag, "false", "Remove the panel from the model when the out-of-plane inertia force first exceeds its capacity. Its struts then carry no force; the mass of the building does not change."),
     optional(S::InfillOutOfPlane, "height", Quantity(D::Length), "Clear height of the panel; the storey height between axes if not given.").usual("a panel height", 1.0, 8.0),
     required(S::InfillStrength, "rule", Choice(PANEL_STRENGTHS), "`bertoldi`, the smallest of four stresses (crushing of the diagonal and of corners, sliding, cracking); or `sliding`, (sliding + 0.4 vertical_stress) over the length and thickness of the panel (FEMA 306)."),
     optional(S::InfillStrength, "compression", Quantity(D::Stress), "bertoldi: compressive strength perpendicular to the bed joints.").usual("a masonry strength", 1e5, 5e7),

@@ -2,6 +2,7 @@
 
 use jostle::results::summary::GapSummary;
 use jostle::separation::Requirements;
+use jostle_io::in_shown_units;
 use maud::{Markup, html};
 
 use crate::message;
@@ -114,8 +115,8 @@ fn sources(required: &Requirements) -> Markup {
                             @for (name, rule) in codes {
                                 tr {
                                     th scope="row" { (name) }
-                                    td { (rule.source) }
-                                    td { (rule.inputs.join("; ")) }
+                                    td { (in_shown_units(&rule.source)) }
+                                    td { (in_shown_units(&rule.inputs.join("; "))) }
                                     td {
                                         @if let Some([left, right]) = rule.setbacks {
                                             (message::one_and_other(format::millimetres(left), format::millimetres(right)))

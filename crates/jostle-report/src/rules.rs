@@ -5,9 +5,9 @@ use jostle_io::shown::LENGTH;
 use crate::message;
 
 /// What the name of a rule of GB 50011 begins with; its intensity follows.
-const GB: &str = "GB 50011, ";
+const GB: &str = "GB 50011, intensity ";
 
-/// Name of a rule: `GB 50011, 8` is `GB 50011, intensity 8`.
+/// Name of a rule in the language of the page.
 #[must_use]
 pub fn rule_name(name: &str) -> String {
     match name.strip_prefix(GB) {
@@ -61,14 +61,24 @@ mod tests {
             rows.into_iter().map(|(name, _)| name).collect()
         };
         assert_eq!(
-            names(&[("ABS", 0.1), ("GB 50011, 6", 0.1), ("GB 50011, 7", 0.1)]),
+            names(&[
+                ("ABS", 0.1),
+                ("GB 50011, intensity 6", 0.1),
+                ("GB 50011, intensity 7", 0.1)
+            ]),
             ["ABS", "GB 50011, every intensity"]
         );
         assert_eq!(
-            names(&[("GB 50011, 6", 0.128), ("GB 50011, 7", 0.135)]),
+            names(&[
+                ("GB 50011, intensity 6", 0.128),
+                ("GB 50011, intensity 7", 0.135)
+            ]),
             ["GB 50011, intensity 6", "GB 50011, intensity 7"]
         );
-        assert_eq!(names(&[("GB 50011, 6", 0.1)]), ["GB 50011, intensity 6"]);
+        assert_eq!(
+            names(&[("GB 50011, intensity 6", 0.1)]),
+            ["GB 50011, intensity 6"]
+        );
     }
 
     /// 37.1 mm is 38 mm to build; 100 mm with rounding errors is not 101 mm.

@@ -7,7 +7,7 @@ use jostle_report::{
 
 use std::path::Path;
 
-use jostle_io::{OutputError, write_atomically};
+use jostle_io::{OutputError, in_shown_units, write_atomically};
 
 use crate::critical_gap::{CriticalGap, GapSet, gap_sets};
 use crate::error::RunError;
@@ -238,8 +238,15 @@ fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
         1 => String::new(),
         _ => format!(", {}", set.governing.between.join(" ↔ ")),
     };
-    let there = required_width(set.governing.model_gap_m);
-    let height = message::height_m(HEIGHT.number(set.governing.height_m, 2));
+    let there = LENGTH.text(set.governing.model_gap_m, 0);
+    let there = match lacks(set) > 0.0 {
+        true => message::lacks_width(there, required_width(lacks(set))),
+        false => there,
+    };
+    let height = match set.governing.height_m > 0.0 {
+        true => message::height_m(HEIGHT.number(set.governing.height_m, 2)),
+        false => message::ground_level().to_owned(),
+    };
     let mut note = message::governing_and_model(governing(set), there, height);
     if set.gaps.len() > 1 {
         let scatter = message::mean_and_deviation(
@@ -252,13 +259,21 @@ fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
 }
 
 fn headlines(sets: &[GapSet<'_>]) -> Vec<String> {
-    let mut all: Vec<String> = sets.iter().map(headline).collect();
+    // First the gap of the model that lacks most.
+    let mut sets: Vec<&GapSet<'_>> = sets.iter().collect();
+    sets.sort_by(|a, b| lacks(b).total_cmp(&lacks(a)));
+    let mut all: Vec<String> = sets.iter().map(|set| headline(set)).collect();
     match sets.iter().map(|set| set.gaps.len()).min() {
         Some(1) => all.push(message::one_record_is_no_design_value().into()),
         Some(2) => all.push(message::two_records_are_no_design_value().into()),
         _ => {}
     }
     all
+}
+
+/// How much wider the gap of the model should be; 0 if it is wide enough \[m\].
+fn lacks(set: &GapSet<'_>) -> f64 {
+    (set.governing.of_both_signs_m() - set.governing.model_gap_m).max(0.0)
 }
 
 fn headline(set: &GapSet<'_>) -> String {
@@ -283,7 +298,11 @@ fn headline(set: &GapSet<'_>) -> String {
     let signs = gap.reversed_gap_m;
     let signs = signs.map_or("", |_| message::either_sign_of_the_motion());
     let needed = LENGTH.rounded_up(gap.of_both_signs_m());
-    match set.gaps.len() {
+    let narrow = match lacks(set) > 0.0 {
+        true => message::gap_is_too_narrow(&pair, required_width(lacks(set))),
+        false => String::new(),
+    };
+    let found = match set.gaps.len() {
         1 => message::under_with_cm_s_do(
             &gap.motion,
             GROUND_ACCELERATION.number(gap.pga_m_s2, 1),
@@ -296,7 +315,8 @@ fn headline(set: &GapSet<'_>) -> String {
             let motion = governing(set);
             message::under_any_record(records, pair, needed, signs, motion, strongest)
         }
-    }
+    };
+    narrow + &found
 }
 
 fn axis(name: &str, unit: &str) -> Axis {
@@ -426,32 +446,38 @@ fn ratio_in_words(ratio: f64) -> String {
 
 /// Rules under one motion.
 fn rules_of(gap: &CriticalGap) -> Option<Section> {
-    let heads = [
-        message::rule(),
-        message::gap_mm(),
-        message::smallest(),
-        message::impacts(),
-        message::greatest_force_kn(),
-        message::clause(),
-    ]
-    .map(str::to_owned);
+    let has_outcomes = gap.rules.iter().any(|rule| rule.worse_outcome().is_some());
+    let mut heads: Vec<String> = [message::rule(), message::gap_mm(), message::smallest()]
+        .map(str::to_owned)
+        .to_vec();
+    if has_outcomes {
+        heads.extend([message::impacts(), message::greatest_force_kn()].map(str::to_owned));
+    }
+    heads.push(message::clause().to_owned());
     let rows = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
     let rows = rows.into_iter().map(|(name, rule)| {
         let worse = rule.worse_outcome();
         let ratio = rule.ratio_of_both_signs.or(rule.ratio);
-        vec![
+        let mut row = vec![
             name,
             LENGTH.rounded_up(rule.gap_m),
             ratio.map_or("–".into(), ratio_in_words),
-            worse.map_or("–".into(), |own| own.impact_count.to_string()),
-            worse.map_or("–".into(), |own| kn(own.peak_force_n)),
-            rule.source.clone(),
-        ]
+        ];
+        if has_outcomes {
+            row.push(worse.map_or("–".into(), |own| own.impact_count.to_string()));
+            row.push(worse.map_or("–".into(), |own| kn(own.peak_force_n)));
+        }
+        row.push(in_shown_units(&rule.source).into_owned());
+        row
     });
+    let needed = message::gap_needed_mm(LENGTH.rounded_up(gap.of_both_signs_m()));
     (!gap.rules.is_empty()).then(|| Section {
-        title: message::rules_under(&gap.motion),
-        remark: message::smallest_gap_without_pounding_mm(LENGTH.rounded_up(gap.of_both_signs_m())),
-        table: Some((heads.to_vec(), rows.collect())),
+        title: message::rules_under(gap.between.join(" ↔ "), &gap.motion),
+        remark: match has_outcomes {
+            true => needed + message::outcomes_of_rules(),
+            false => needed,
+        },
+        table: Some((heads, rows.collect())),
         ..Section::default()
     })
 }
@@ -489,7 +515,7 @@ fn rules_of_records(set: &GapSet<'_>) -> Option<Section> {
     let first = std::iter::once(message::smallest_gap_without_pounding().to_owned()).chain(needed);
     rows.insert(0, first.collect());
     Some(Section {
-        title: message::rules_and_records().into(),
+        title: message::rules_and_records(set.governing.between.join(" ↔ ")),
         remark: message::rules_and_records_remark().into(),
         table: Some((head.collect(), rows)),
         ..Section::default()

@@ -449,15 +449,15 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     }
     for wall in &summary.walls {
         let (name, force) = (&wall.name, FORCE.text(wall.force_peak_n, 0));
-        match wall.displacement_peak_m > 0.0 {
-            true => {
-                let moved = LENGTH.text(wall.displacement_peak_m, 1);
-                writeln!(
-                    text,
-                    "\"{name}\" moves by up to {moved} under a contact force of {force}"
-                )?;
-            }
-            false => writeln!(text, "\"{name}\": contact force up to {force}")?,
+        let moved = LENGTH.text(wall.displacement_peak_m, 1);
+        match (wall.displacement_peak_m > 0.0, wall.force_peak_n > 0.0) {
+            (true, true) => writeln!(
+                text,
+                "\"{name}\" moves by up to {moved}; contact force up to {force}"
+            )?,
+            // It shakes with the ground.
+            (true, false) => writeln!(text, "\"{name}\" moves by up to {moved}, without contact")?,
+            (false, _) => writeln!(text, "\"{name}\": contact force up to {force}")?,
         }
     }
     Ok(())

@@ -149,7 +149,13 @@ impl EndCurve {
                         1e-3 * y.force, 1e-3 * c.force
                     )
                 } else {
-                    "the elastic member alone turns further than its section does at yield: its stiffness is already that of a cracked section; raise stiffness_factor".to_owned()
+                    // The stiffness of the hinge is a multiple of that of the member. Two parts in a hundred more, because
+                    // stiffer columns also carry another weight.
+                    let wanted = (y.force + c.force * member / initial) / (member * y.deformation);
+                    format!(
+                        "the elastic member alone turns further than its section does at yield: its stiffness is already that of a cracked section; raise stiffness_factor to {:.2} times its value for this member, or more",
+                        0.05 * (20.0 * 1.02 * wanted).ceil()
+                    )
                 };
                 faults.push(SpringFault { quantity: Quantity::Yielding, side: Some(side), problem });
             }

@@ -138,7 +138,11 @@ pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) record: RecordArgs,
     /// File to write: .at2 or .csv
-    pub(crate) out: PathBuf,
+    #[arg(required_unless_present = "output")]
+    pub(crate) out: Option<PathBuf>,
+    /// The same as an option
+    #[arg(short, long = "out", value_name = "OUT", conflicts_with = "out")]
+    pub(crate) output: Option<PathBuf>,
     /// Start of the part to keep
     #[arg(long, value_name = "TIME", help_heading = PROCESSING)]
     pub(crate) from: Option<String>,

@@ -1,5 +1,7 @@
 //! `jostle motion convert`: reads any format, processes the motion and writes AT2 or CSV.
 
+use std::path::Path;
+
 use jostle_io::Dimension;
 use jostle_run::{Processing, motion_in_short};
 
@@ -11,9 +13,15 @@ use crate::terminal;
 pub(super) fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let source = args.record.open()?;
     let motion = args.processing()?.apply(source.motion)?;
-    write(&args.out, args.force, &source.name, &motion)?;
+    // One of them is required.
+    let out = args
+        .out
+        .as_deref()
+        .or(args.output.as_deref())
+        .unwrap_or(Path::new(""));
+    write(out, args.force, &source.name, &motion)?;
     let line = motion_in_short(&motion);
-    terminal::print(&format!("{}: {line}", args.out.display()))
+    terminal::print(&format!("{}: {line}", out.display()))
 }
 
 impl ConvertArgs {

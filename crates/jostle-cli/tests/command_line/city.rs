@@ -82,12 +82,19 @@ fn what_a_city_lacks_is_told_with_a_remedy() {
     changed("type.toml", "type = \"C1\"", "type = \"C9\"");
     changed("none.toml", "city.geojson", "none.geojson");
     std::fs::write(path.join("points.csv"), "id,lat,lon,storeys\n1,2,3,4\n").expect("points");
+    let square = "id,storeys,type,footprint\na,3,C1,\"POLYGON((0 0,9 0,9 9,0 9,0 0))\"\nb,3,C9,\"POLYGON((10 0,19 0,19 9,10 9,10 0))\"\n";
+    std::fs::write(path.join("c9.csv"), square).expect("footprints");
     for (arguments, wanted) in [
         (&["city", "run", "demo/gap.toml"][..], "gap.toml:"),
         (&["city", "run", "demo/key.toml"], "draws"),
         (&["city", "run", "demo/none.toml"], "none.geojson"),
         (&["city", "run", "demo/type.toml"], "buildings.type"),
         (&["city", "check", "points.csv"], "only points"),
+        (&["city", "check", "c9.csv", "--metres"], "\"C9\""),
+        (
+            &["city", "check", "c9.csv", "--metres", "--table", "no.csv"],
+            "no.csv",
+        ),
         (
             &["city", "check", "demo/city.geojson", "--column", "floors=X"],
             "storeys",

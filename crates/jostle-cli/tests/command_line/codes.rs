@@ -82,7 +82,7 @@ fn the_gap_command_lists_every_code() {
     near("E.030-2018", (2.0 / 3.0 * 0.75 * sum).max(0.006 * 9.6));
     near("NSR-10", 0.0);
     near("Standard 2800", 2.0 * 0.005 * 9.6);
-    near("GB 50011, 8", 0.1);
+    near("GB 50011, intensity 8", 0.1);
     assert_eq!(rule("ASCE 7-16")["inputs"][0], "soft: C_d = 5.5, R = 8");
     assert_eq!(rule("ASCE 7-16")["code"], "asce7");
     let setbacks = &rule("ASCE 7-16, line")["setbacks_m"];

@@ -161,3 +161,54 @@ fn every_search_writes_its_page_numbers_and_rules() {
     searched(&["--json"]);
     assert!(!folder.path().join("jostle-out/pair-gap/other").exists());
 }
+
+/// Of two gaps the page begins with the one that is too narrow, whichever is first in the file.
+#[test]
+fn the_page_begins_with_the_gap_that_is_too_narrow() {
+    let folder = folder();
+    let third = "[[building]]\nname = \"C\"\nkind = \"shear\"\nmass = \"40 t\"\nstiffness = \"80 MN/m\"\nstoreys = 2\n\
+                 [[gap]]\nbetween = [\"B\", \"C\"]\nwidth = \"1 m\"\nlaw = \"kelvin\"\nstiffness = \"50 MN/m\"\nrestitution = 0.6\n";
+    let wide = MODEL.replace("width = \"20 mm\"", "width = \"1 m\"");
+    for (name, text, widths, narrow) in [
+        (
+            "first.toml",
+            format!("{MODEL}{third}"),
+            [0.02, 1.0],
+            "A and B",
+        ),
+        (
+            "second.toml",
+            format!("{wide}{}", third.replace("1 m", "2 mm")),
+            [1.0, 0.002],
+            "B and C",
+        ),
+    ] {
+        std::fs::write(folder.path().join(name), text).expect("written");
+        let arguments = ["gap", name, "--no-outcomes", "--out", "out"];
+        let output = jostle(folder.path(), &arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+        let found: serde_json::Value = serde_json::from_slice(
+            &std::fs::read(folder.path().join("out/gap.json")).expect("numbers"),
+        )
+        .expect("JSON");
+        let gaps = found["gaps"].as_array().into_iter().flatten();
+        let lacks = gaps.zip(widths).map(|(gap, width)| {
+            let number = |key: &str| gap[key].as_f64().unwrap_or(0.0);
+            number("gap_m").max(number("reversed_gap_m")) - width
+        });
+        let lacks: Vec<f64> = lacks.filter(|lacks| *lacks > 0.0).collect();
+        assert_eq!(lacks.len(), 1, "{found}");
+        let page = std::fs::read_to_string(folder.path().join("out/gap.html")).expect("a page");
+        let after = page.split("class=\"verdict\"").nth(1);
+        let headline = after
+            .and_then(|after| after.split("</p>").next())
+            .expect("a headline");
+        let due = format!(
+            "The gap between {narrow} is {:.0} mm too narrow.",
+            (1e3 * lacks[0]).ceil()
+        );
+        assert!(headline.contains(&due), "{due}: {headline}");
+        assert!(page.contains("A ↔ B: rules under") && page.contains("B ↔ C: rules under"));
+        assert!(!page.contains("greatest force ["), "columns without values");
+    }
+}

@@ -131,6 +131,7 @@ fn waves_are_made_converted_and_checked() {
         "motion",
         "convert",
         "nj.csv",
+        "-o",
         "half.at2",
         "--to",
         "20 s",

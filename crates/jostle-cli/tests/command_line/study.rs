@@ -390,7 +390,7 @@ fn the_smallest_gap_is_free_and_a_narrower_one_is_not() {
     );
     assert!((width("0.7 SRSS") - 0.7 * width("SRSS")).abs() < 1e-12);
     assert!((width("UBC-97") - 0.7 * width("SRSS")).abs() < 1e-12);
-    assert_eq!(width("GB 50011, 8"), 0.1);
+    assert_eq!(width("GB 50011, intensity 8"), 0.1);
     assert!(width("ABS") >= free, "the sum of peaks is never too narrow");
     for rule in &rules {
         let safe = rule["gap_m"].as_f64() >= Some(free);

@@ -111,6 +111,25 @@ fn no_text_in_us_units_has_an_si_unit() {
     assert!(seen > 50, "{seen} lines with SI units without the option");
 }
 
+/// A width that the file gives in hundredths of an inch is the same in the text of its check: no text is rounded twice.
+#[test]
+fn texts_of_checks_repeat_stated_widths() {
+    let place = folder();
+    let text = fs::read_to_string(example("five_and_ten_storeys.toml")).expect("read");
+    let width = text
+        .lines()
+        .find(|line| line.starts_with("width"))
+        .expect("a gap");
+    for hundredths in [5, 17, 33, 49, 58, 66, 80, 91] {
+        let gap = format!("0.{hundredths:02} in");
+        let own = text.replace(width, &format!("width = \"{gap}\""));
+        fs::write(place.path().join("a.toml"), own).expect("written");
+        let us = said(place.path(), &["check", "a.toml", "--units", "us"]);
+        let due = format!("the gap of {gap} is smaller than the construction tolerance (0.98 in)");
+        assert!(us.contains(&due), "{due}: {us}");
+    }
+}
+
 /// The same run: a displacement in inches is that in millimetres by 25.4, a force in kip that in kN by 4.448 22.
 #[test]
 fn a_model_asks_for_us_units_and_the_option_comes_first() {

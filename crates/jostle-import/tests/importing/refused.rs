@@ -207,6 +207,14 @@ fn text_models_that_are_not_regular_are_refused_with_what_helps() {
         &options,
         &["PROGRAM CONTROL", "CurrUnits"],
     );
+    // A storey of 3 m in a file in cm that names mm.
+    let wrong = s2k().replace("Kgf, cm, C", "Kgf, mm, C");
+    refused(
+        Program::Sap2000,
+        &[("A.s2k", wrong.as_bytes())],
+        &options,
+        &["has a height of 0.", " mm in the file", "check the units"],
+    );
     let (out, log) = (out(), log());
     let alone = [
         ("A.OUT", out.as_bytes()),

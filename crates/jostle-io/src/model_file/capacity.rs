@@ -35,9 +35,12 @@ impl CapacityRequest {
             }
             Self::WhereKnown | Self::Rules(_) => {
                 let home = members.iter().find_map(|member| member.home_rule);
+                // ASCE 41 has no rule for joints: that of its country follows.
+                let of_joints = home.filter(|rule| *rule == ShearRule::Asce41);
+                let of_joints = of_joints.map(|_| ShearRule::Aci318);
                 let others = ShearRule::ALL.into_iter();
-                let others = others.filter(|rule| Some(*rule) != home);
-                home.into_iter().chain(others).collect()
+                let others = others.filter(|rule| Some(*rule) != home && Some(*rule) != of_joints);
+                home.into_iter().chain(of_joints).chain(others).collect()
             }
         }
     }

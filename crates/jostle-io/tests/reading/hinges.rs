@@ -422,13 +422,31 @@ fn overload_and_soft_members_are_said_with_their_place() {
         found[0].contains("column 1 of storey 1") && found[0].contains("9000 kN"),
         "{found:?}"
     );
-    let soft = frame(
-        COLUMN_BARS,
-        BEAM_BARS,
-        "stiffness_factor = 0.1\nhinges = { rule = \"peak-oriented\", from = \"section\" }",
-    );
-    let found = faults(&soft);
-    assert!(found[0].contains("raise stiffness_factor"), "{found:?}");
+}
+
+/// The factor that the message names is enough for the member, and a tenth less is not.
+#[test]
+fn members_that_are_too_soft_are_told_the_least_factor() {
+    let soft = |column: f64| {
+        frame(
+            COLUMN_BARS,
+            BEAM_BARS,
+            &format!(
+                "stiffness_factor = {{ column = {column}, beam = 0.35 }}\nhinges = {{ rule = \"peak-oriented\", from = \"section\" }}"
+            ),
+        )
+    };
+    let found = faults(&soft(0.1));
+    let after = found[0].split("raise stiffness_factor to ").nth(1);
+    let times = after.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    let least = 0.1 * times.unwrap_or_else(|| panic!("{found:?}"));
+    assert!(least > 0.1 && least < 0.9, "{found:?}");
+    let of_columns = |factor: f64| match read(&soft(factor)) {
+        Ok(_) => false,
+        Err(error) => error.to_string().contains("column 1 of storey 1"),
+    };
+    assert!(!of_columns(least), "{least}");
+    assert!(of_columns(0.9 * least), "{least}");
 }
 
 #[test]

@@ -972,8 +972,8 @@ messages! {
 
     // verdict
     no_contact_but = "No contact: ";
-    no_contact_in_any(gaps) = "No contact in any of {gaps} gaps: ";
-    no_contact_in_any_of_gaps(gaps) = "No contact in any of {gaps} gaps.";
+    no_contact_in_any(gaps) = "None of the {gaps} gaps closes: ";
+    no_contact_in_any_of_gaps(gaps) = "None of the {gaps} gaps closes.";
     the_other_gap_stays_open = "The other gap stays open.";
     the_other_gaps_stay_open(n) = "The other {n} gaps stay open.";
     of_gaps_close(gaps, all, gap) = "{gaps} of {all} gaps close. {gap}";
@@ -1010,12 +1010,15 @@ messages! {
     under_any_record(records, pair, gap, sign, motion, strongest) = "Under {records} records: no impact between {pair} for gaps of {gap} {mm} or more{sign} (governing: {motion}).{strongest}";
     under_motion(motion) = " under {motion}";
     governing_and_model(motion, width, height) = "{motion}; closes first at {height}; the model has {width}";
+    lacks_width(text, lacks) = "{text}, {lacks} too narrow";
+    gap_is_too_narrow(pair, lacks) = "The gap between {pair} is {lacks} too narrow. ";
+    ground_level = "ground level";
     motion_and_across(motion, across) = "{motion}; across: {across}";
     mean_and_deviation(mean, deviation) = "mean of all records {mean}, standard deviation {deviation}";
     two_records_are_no_design_value = "Two records give no design value: codes require 3, 7 or 11 records.";
     gap_of_the_model = "gap of the model";
     dots_are_rules = " Dots: rules that require less than the gap needed.";
-    rules_and_records = "Rules under every record";
+    rules_and_records(pair) = "{pair}: rules under every record";
     rules_and_records_remark = "Required gap [{mm}], and in brackets its ratio to the gap needed under that record: the buildings touch where it is below 1.";
     one_record_is_no_design_value = "One record does not give a design value: codes require 3, 7 or 11 records.";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
@@ -1026,8 +1029,9 @@ messages! {
     gap_mm = "required gap [{mm}]";
     smallest = "÷ needed";
     greatest_force_kn = "greatest force [{kN}]";
-    rules_under(motion) = "Rules under {motion}";
-    smallest_gap_without_pounding_mm(gap) = "Gap needed: {gap} {mm}. A width below it is followed by impacts; impacts and force are the worse of both signs of the motion.";
+    rules_under(pair, motion) = "{pair}: rules under {motion}";
+    gap_needed_mm(gap) = "Gap needed: {gap} {mm}.";
+    outcomes_of_rules = " For narrower gaps, the table gives the number of impacts and the greatest force, for the worse of the two signs of the motion.";
 
     // jostle-live/page
     runs_on_this_machine = "runs on this machine. This page uses no network.";
@@ -1401,6 +1405,15 @@ messages! {
     values_not_stated(values) = "{values}; not stated in the model";
     values_in_model(values, own) = "{values}; in the model {own}";
     none_required = "none required";
+    result_storey_drift = "storey drift";
+    result_storey_drift_across = "storey drift across";
+    result_corner_drift = "storey drift at a corner";
+    result_end_drift = "drift at the end";
+    result_base_shear = "base shear";
+    result_acceleration = "total acceleration";
+    result_displacement = "displacement";
+    result_sa_t1 = "Sa(T1)";
+    result_without_contact(result) = "{result} without contact";
     gap_needed_at(name, widths, of_all) = "Gap needed over {name}: {widths}{of_all}.";
     width_at_level(width, level) = "{width} {mm} at {level}";
     matters_most(factors) = "What matters most, {factors}.";
@@ -1421,14 +1434,14 @@ messages! {
     section_yields(name, moment, rotation) = "{name} yields at {moment} {kN·m}, an end rotation of {rotation} mrad.";
     sections_yield(count, least, most) = "{count} sections yield at {least} to {most} {kN·m}.";
     riccati_keeps(digits, step) = "The Riccati recursion keeps at least {digits} of 16 digits at steps down to {step} ms.";
-    classes_answer(least, most) = "With pounding, damage needs {least} to {most} times the intensity that it needs without.";
+    classes_answer(least, most) = "With pounding, damage begins at {least} to {most} times the intensity without pounding.";
     curvature_in_unit(unit) = "curvature [{unit}]";
     the_greatest_of_combinations(count) = ", the greatest of {count} combinations";
     more_than(width) = "> {width}";
     at_most_width(width) = "≤ {width}";
     required_gap = "Gaps required by rules";
     smallest_gap_and_rules = "Gap needed, and rules";
-    needed_gap_and_rules = "Needed: the greatest closing with the widest gap of the study, where no record closes that. Otherwise the smallest gap of the study with no impact at it or at any wider gap; the shaded band then reaches down to the next smaller gap, and the true value lies in it. ABS, SRSS and DDC use the peak displacements at possible contacts with the widest gap: the greatest of all records and draws, if none of them closes it.";
+    needed_gap_and_rules = "Gap needed: if no record closes the widest gap of the study, the greatest closing at that gap. Otherwise the smallest gap of the study with no impact at it or at any wider gap; the shaded band then reaches down to the next smaller gap, and the true value lies in it. ABS, SRSS and DDC use the peak displacements at possible contacts with the widest gap: the greatest of all records and draws, if none of them closes it.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
     gb50011_of_every_intensity = "GB 50011, every intensity";
     gb50011_of_intensities(least, most) = "GB 50011, intensities 6 to 9: {least} to {most} {mm}";

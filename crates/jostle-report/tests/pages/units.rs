@@ -39,17 +39,11 @@ const SI: &[&str] = &[
     "N·m/rad",
 ];
 
-/// What may stay in SI: the titles of the fixtures, clauses of codes with their inputs, and what checks find.
-const TYPED: &[&str] = &["100 mm apart", "§6.1.4", "a_g S", "E.030-2018"];
+/// What may stay in SI: the titles of the fixtures.
+const TYPED: &[&str] = &["100 mm apart"];
 
 fn may_stay(text: &str) -> bool {
-    // A finding ends with its number: (A11).
-    let finding = text.rsplit_once('(').is_some_and(|(_, number)| {
-        let number = number.trim_end_matches(['.', ')']);
-        number.starts_with(|c: char| c.is_ascii_uppercase())
-            && number[1..].chars().all(|c| c.is_ascii_digit())
-    });
-    finding || TYPED.iter().any(|phrase| text.contains(phrase))
+    TYPED.iter().any(|phrase| text.contains(phrase))
 }
 
 /// Words of a page that are SI units.

@@ -48,9 +48,13 @@ pub(super) fn shared(
             .iter()
             .find(|state| state.reached == 0 || state.reached == state.cases);
         if let Some(state) = one_sided {
+            let (cases, add) = match state.reached {
+                0 => ("none", "higher"),
+                _ => ("all", "lower"),
+            };
             return Err(format!(
-                "{} damage in {} of {} cases: the intensities do not bracket it",
-                STATES[state.state], state.reached, state.cases
+                "{} damage in {cases} of {} cases: add {add} intensities",
+                STATES[state.state], state.cases
             ));
         }
         fit(&demands, states)

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use jostle_run::counted;
+
 use super::curves::STATES;
 use super::run::ClassesResults;
 
@@ -11,12 +13,12 @@ impl ClassesResults {
     pub fn text(&self) -> String {
         let touching = self.cases.iter().filter(|case| case.impacts > 0).count();
         let mut text = format!(
-            "{} pairs, {} motions, {} cases, {} rows stepped; impacts in {} cases\n",
-            self.pairs.len(),
-            self.motions.len(),
-            self.cases.len(),
-            self.rows,
-            touching
+            "{}, {}, {}, {} stepped; impacts in {}\n",
+            counted(self.pairs.len(), "pair"),
+            counted(self.motions.len(), "motion"),
+            counted(self.cases.len(), "case"),
+            counted(self.rows, "row"),
+            counted(touching, "case")
         );
         if !self.checked.is_empty() {
             let [drift, force] = self.worst_deviations();

@@ -62,13 +62,46 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
             let pair = other.trim_end_matches(".closing_without_contact");
             message::gap_needed_of(pair.replacen('-', " ↔ ", 1))
         }
-        other => key_in_words(other),
+        other => result_in_words(other).unwrap_or_else(|| key_in_words(other)),
     };
     let axis = Axis {
         name,
         unit: unit.to_owned(),
     };
     (axis, size)
+}
+
+/// End of a column, and what it says.
+type Words = (&'static str, fn() -> &'static str);
+
+/// Results of buildings and floors, without their units.
+const RESULTS: [Words; 10] = [
+    ("drift_peak", message::result_storey_drift),
+    ("storey_drift_peak", message::result_storey_drift),
+    ("drift_across_peak", message::result_storey_drift_across),
+    (
+        "storey_drift_across_peak",
+        message::result_storey_drift_across,
+    ),
+    ("drift_corner_peak", message::result_corner_drift),
+    ("residual_drift_peak", message::result_end_drift),
+    ("base_shear_peak", message::result_base_shear),
+    ("total_acceleration_peak", message::result_acceleration),
+    ("displacement_peak", message::result_displacement),
+    ("sa_t1", message::result_sa_t1),
+];
+
+/// `MRF.floor3.storey_drift_peak` is "storey drift of MRF, floor 3"; `None` for other columns.
+fn result_in_words(column: &str) -> Option<String> {
+    let (owner, key) = column.rsplit_once('.')?;
+    let apart = key.strip_suffix("_without_contact");
+    let wanted = apart.unwrap_or(key);
+    let (_, words) = RESULTS.iter().find(|(known, _)| *known == wanted)?;
+    let of_owner = message::key_of_owner(words(), owner.replacen(".floor", ", floor ", 1));
+    Some(match apart {
+        Some(_) => message::result_without_contact(of_owner),
+        None => of_owner,
+    })
 }
 
 /// A design in words.
@@ -105,6 +138,24 @@ fn quoted(text: String, for_windows: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn results_read_as_words() {
+        for (column, words, unit) in [
+            ("MRF.drift_peak", "storey drift of MRF", "%"),
+            ("MRF.sa_t1_m_s2", "Sa(T1) of MRF", "cm/s²"),
+            (
+                "A.floor3.storey_drift_peak_without_contact",
+                "storey drift of A, floor 3 without contact",
+                "%",
+            ),
+            ("A.base_shear_peak_n", "base shear of A", "kN"),
+            ("A.rotation_peak_rad", "A rotation peak", "mrad"),
+        ] {
+            let (axis, _) = axis(column);
+            assert_eq!((&axis.name[..], &axis.unit[..]), (words, unit), "{column}");
+        }
+    }
 
     #[test]
     fn paths_are_quoted_as_the_shell_expects() {

@@ -39,7 +39,7 @@ pub enum FitError {
         cases: usize,
     },
     /// The event always or never happens.
-    #[error("the event happens in {events} of {cases} cases: the intensities do not bracket it")]
+    #[error("the event occurs in {}", one_sided(*events, *cases))]
     OneSided {
         /// Cases with the event.
         events: usize,
@@ -72,8 +72,15 @@ pub enum FitError {
     #[error("the event does not become likelier with the intensity")]
     Falling,
     /// The search failed.
-    #[error("no curve fits: too few intensities have both outcomes; add intensities")]
+    #[error("no curve was fitted: at too few intensities do both outcomes occur; add intensities")]
     NoMaximum,
+}
+
+fn one_sided(events: usize, cases: usize) -> String {
+    match events {
+        0 => format!("none of {cases} cases: add higher intensities"),
+        _ => format!("all {cases} cases: add lower intensities"),
+    }
 }
 
 /// Fits θ and β to outcomes (intensity, event) by maximum likelihood,

@@ -1,6 +1,6 @@
 //! A11, B10 and B12: widths of gaps.
 
-use super::{Known, Tally, sides};
+use super::{Known, Tally, sides, stated};
 use crate::model::{Building, Structure};
 
 /// Deviation from plumb that specifications of concrete work allow up to 30 m of height \[m\].
@@ -45,13 +45,13 @@ pub(super) fn tolerance(known: &Known<'_>, tally: &mut Tally<'_>) {
             let place = sides(known, index);
             // Without a known length there is no movement to name.
             let thermal = match temperature > 0.0 {
-                true => format!(" plus thermal movement ({:.0} mm)", 1e3 * temperature),
+                true => format!(" plus thermal movement ({:.1} mm)", 1e3 * temperature),
                 false => String::new(),
             };
             let text = format!(
-                "{place}: the gap of {:.0} mm is smaller than the construction tolerance ({:.0} mm){thermal}",
-                1e3 * width,
-                1e3 * PLUMB
+                "{place}: the gap of {} mm is smaller than the construction tolerance ({} mm){thermal}",
+                stated(1e3 * width),
+                stated(1e3 * PLUMB)
             );
             (place, text)
         });
@@ -69,8 +69,8 @@ pub(super) fn near_miss(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(closing / width, || {
                 let place = gap.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: a near miss: the gap of {:.1} mm closes by {:.1} mm without impact",
-                    1e3 * width,
+                    "{place}: a near miss: the gap of {} mm closes by {:.1} mm without impact",
+                    stated(1e3 * width),
                     1e3 * closing
                 );
                 (place, text)
@@ -93,10 +93,10 @@ pub(super) fn code_gap(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(needed / rule.width, || {
                 let place = gap.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: this record needs {:.0} mm, more than the {:.0} mm of {}",
+                    "{place}: this record needs {:.1} mm, more than the {} mm of {}",
                     1e3 * needed,
                     // Up, as tables round it.
-                    (1e3 * rule.width - 1e-6).ceil(),
+                    stated(0.1 * (1e4 * rule.width - 1e-6).ceil()),
                     rule.name
                 );
                 (place, text)

@@ -3,7 +3,7 @@
 use super::contact::is_bare;
 use super::gap::length;
 use super::mass::floor_masses;
-use super::{Known, Tally};
+use super::{Known, Tally, stated};
 use crate::contact::{LawKind, SlabMaterial};
 use crate::results::summary::{GapSummary, ImpactSummary};
 
@@ -28,7 +28,7 @@ pub(super) fn indentation(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(depth, || {
             let place = gap.between.join(" ↔ ");
             let text = format!(
-                "{place}: an impact indents the floors by {:.0} mm; concrete would crush before that",
+                "{place}: an impact indents the floors by {:.1} mm; concrete would crush before that",
                 1e3 * depth
             );
             (place, text)
@@ -50,8 +50,8 @@ pub(super) fn bumper(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(depth / bumper.thickness, || {
                 let place = gap.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: a rubber bumper of {:.0} mm is compressed by {:.1} mm",
-                    1e3 * bumper.thickness,
+                    "{place}: a rubber bumper of {} mm is compressed by {:.1} mm",
+                    stated(1e3 * bumper.thickness),
                     1e3 * depth
                 );
                 (place, text)
@@ -70,9 +70,10 @@ pub(super) fn indentation_share(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(depth / shortest, || {
             let place = gap.between.join(" ↔ ");
             let text = format!(
-                "{place}: an impact indents the floors by {:.1} mm, {:.1} % of their length of {shortest:.1} m",
+                "{place}: an impact indents the floors by {:.1} mm, {:.1} % of their length of {} m",
                 1e3 * depth,
-                100.0 * depth / shortest
+                100.0 * depth / shortest,
+                stated(shortest)
             );
             (place, text)
         });
@@ -117,11 +118,12 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(pressure / strength, || {
                 let place = gap_summary.between.join(" ↔ ");
                 let text = format!(
-                    "{place}: {:.0} kN on a slab of {:.0} mm over {width:.1} m is a pressure of {:.0} MPa, above the concrete strength of {:.0} MPa: it would crush",
+                    "{place}: {:.1} kN on a slab of {} mm over {} m is a pressure of {:.1} MPa, above the concrete strength of {} MPa: it would crush",
                     1e-3 * contact.peak_force_n,
-                    1e3 * SLAB,
+                    stated(1e3 * SLAB),
+                    stated(width),
                     1e-6 * pressure,
-                    1e-6 * strength
+                    stated(1e-6 * strength)
                 );
                 (place, text)
             });
@@ -159,8 +161,9 @@ pub(super) fn duration(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add(duration / there_and_back, || {
             let place = gap.between.join(" ↔ ");
             let text = format!(
-                "{place}: the strongest impact lasts {:.1} ms; in this time a wave travels along a floor of {shortest:.0} m and back {:.1} times, so that floors are not rigid bodies",
+                "{place}: the strongest impact lasts {:.1} ms; in this time a wave travels along a floor of {} m and back {:.1} times, so that floors are not rigid bodies",
                 1e3 * duration,
+                stated(shortest),
                 duration / there_and_back
             );
             (place, text)
@@ -191,7 +194,7 @@ pub(super) fn force_spread(known: &Known<'_>, tally: &mut Tally<'_>) {
         tally.add((most - least) / gap.peak_force_n, || {
             let place = gap_spread.between.join(" ↔ ");
             let text = format!(
-                "{place}: the peak force is between {:.0} and {:.0} kN over the range of contact stiffness",
+                "{place}: the peak force is between {:.1} and {:.1} kN over the range of contact stiffness",
                 1e-3 * least,
                 1e-3 * most
             );

@@ -1,6 +1,6 @@
 //! A2, A3 and A6: masses of beams and floors, compression of columns, and the mass that a neighbour strikes.
 
-use super::{Known, Tally, quoted};
+use super::{Known, Tally, quoted, stated};
 use crate::model::{Frame, LEVEL_TOLERANCE, PlanArea, STANDARD_GRAVITY, Structure};
 use crate::statics::compressions;
 use crate::structure::MemberPlace;
@@ -80,7 +80,7 @@ pub(super) fn column_compression(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let ratio = compression * modulus / (axial * strength);
                 tally.add(ratio, || {
                     let text = format!(
-                        "{}: a column of storey {storey} carries {:.0} kN under gravity, ν = {ratio:.2}",
+                        "{}: a column of storey {storey} carries {:.1} kN under gravity, ν = {ratio:.2}",
                         quoted(&building.name),
                         1e-3 * compression
                     );
@@ -102,10 +102,11 @@ pub(super) fn floor_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             let density = tier.mass / area;
             tally.add(density, || {
                 let text = format!(
-                    "{}: floor {} has {:.1} t on {area:.0} m², {density:.0} kg/m²; usual floors have 400 to 2000 kg/m²",
+                    "{}: floor {} has {:.1} t on {} m², {density:.0} kg/m²; usual floors have 400 to 2000 kg/m²",
                     quoted(&building.name),
                     floor + 1,
-                    1e-3 * tier.mass
+                    1e-3 * tier.mass,
+                    stated(area)
                 );
                 (format!("{}, floor {}", building.name, floor + 1), text)
             });
@@ -148,7 +149,7 @@ pub(super) fn struck_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(port.mass / whole, || {
                 let name = &known.system.buildings[port.building].name;
                 let text = format!(
-                    "{}: the impact at floor {floor} acts on a joint of {:.1} t, not on the floor of {:.0} t: its floors are not rigid",
+                    "{}: the impact at floor {floor} acts on a joint of {:.1} t, not on the floor of {:.1} t: its floors are not rigid",
                     quoted(name),
                     1e-3 * port.mass,
                     1e-3 * whole

@@ -247,6 +247,12 @@ pub fn judge(known: &Known<'_>) -> Vec<Finding> {
     found
 }
 
+/// A number as the model states it, for texts: with two decimals at most, so that other units can be computed from the text.
+fn stated(value: f64) -> String {
+    let text = format!("{value:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// A name in quotes, for texts.
 fn quoted(name: &str) -> String {
     format!("\"{name}\"")

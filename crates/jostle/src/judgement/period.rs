@@ -1,6 +1,6 @@
 //! A1: the first period against formulas of codes.
 
-use super::{Known, Tally, quoted};
+use super::{Known, Tally, quoted, stated};
 
 /// Coefficient and exponent of T = C H^x of moment frames and of other structures, H in m: EN 1998-1:2004, 4.3.3.2.2(3) and
 /// ASCE/SEI 7-16, table 12.8-2.
@@ -44,8 +44,9 @@ pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
         };
         tally.add(ratio, || {
             let text = format!(
-                "{}: the uncracked first period is {period:.2} s; code formulas give {least:.2} to {most:.2} s for {heights:.1} m",
-                quoted(&building.name)
+                "{}: the uncracked first period is {period:.2} s; code formulas give {least:.2} to {most:.2} s for {} m",
+                quoted(&building.name),
+                stated(heights)
             );
             (building.name.clone(), text)
         });

@@ -1,7 +1,7 @@
 //! A15, A16 and B11: properties, strokes and uplift of bearings, and soil counted twice.
 
 use super::gap::length;
-use super::{Known, Tally, quoted};
+use super::{Known, Tally, quoted, stated};
 use crate::model::{LEVEL_TOLERANCE, PlanPoint, Structure};
 
 /// 1 for an isolated building without bounds of its bearing properties, 0 for others.
@@ -76,10 +76,10 @@ pub(super) fn bearing_stroke(known: &Known<'_>, tally: &mut Tally<'_>) {
                 false => "",
             };
             let text = format!(
-                "{what} of {} moves {:.0} mm{at}, more than the {:.0} mm capacity of its bearings",
+                "{what} of {} moves {:.1} mm{at}, more than the {} mm capacity of its bearings",
                 quoted(&building.name),
                 1e3 * stroke,
-                1e3 * limit
+                stated(1e3 * limit)
             );
             (building.name.clone(), text)
         });
@@ -107,10 +107,10 @@ pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
         let ratio = moment / (isolation.weight_n * arm);
         tally.add(ratio, || {
             let text = format!(
-                "{}: an overturning moment of {:.1} MN·m puts the outermost bearings in tension, which begins at {:.1} MN·m",
+                "{}: an overturning moment of {:.0} kN·m puts the outermost bearings in tension, which begins at {:.0} kN·m",
                 quoted(&building.name),
-                1e-6 * moment,
-                1e-6 * isolation.weight_n * arm
+                1e-3 * moment,
+                1e-3 * isolation.weight_n * arm
             );
             (building.name.clone(), text)
         });

@@ -300,7 +300,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.02, Note), above(OUTSIDE_DRIFT, Warning)],
         sources: &[JUDGEMENT],
-        remedy: "drifts above 4.5 % show that the building is badly damaged, but not how badly",
+        remedy: "compare with the drift limit of your code; above 4.5 % the model no longer says how severe the damage is",
         measure: drift::peak,
     },
     Check {
@@ -360,7 +360,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(1.0, Remark), above(1.5, Note), above(3.0, Warning)],
         sources: &[JUDGEMENT],
-        remedy: "give the building hinges",
+        remedy: "add hinges to the building, so that it can yield",
         measure: yielding::elastic_drift,
     },
     Check {
@@ -370,7 +370,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.4, Remark), above(1.0, Note)],
         sources: &[JUDGEMENT],
-        remedy: "give the building hinges, or check that it has this strength",
+        remedy: "add hinges to the building, so that it can yield, or check that it has this strength",
         measure: yielding::elastic_shear,
     },
     Check {
@@ -474,7 +474,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.95, Note)],
         sources: &[JUDGEMENT],
-        remedy: "treat it as an impact, and try a stronger motion",
+        remedy: "treat it as an impact, and repeat the run with a stronger motion",
         measure: gap::near_miss,
     },
     Check {

@@ -203,7 +203,7 @@ pub(super) fn struck_unrated(known: &Known<'_>, tally: &mut Tally<'_>) {
             tally.add(1.0 + asked, || {
                 let name = name.unwrap_or_else(|| format!("a column of {}", quoted(&building.name)));
                 let text = format!(
-                    "{name} is hit between floors, at {:.3} m, with up to {:.0} kN, and is not compared with its capacity",
+                    "{name} is hit between floors, at {:.3} m, with up to {:.1} kN, and is not compared with its capacity",
                     contact.height_m,
                     1e-3 * contact.peak_force_n
                 );
@@ -338,7 +338,7 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
             let (tension, compression) = (end.axial_max_n, -end.axial_min_n);
             tally.add(tension / compression.max(1.0), || {
                 let text = format!(
-                    "{}: a column has {:.0} kN of tension and up to {:.0} kN of compression",
+                    "{}: a column has {:.1} kN of tension and up to {:.1} kN of compression",
                     column.name,
                     1e-3 * tension,
                     1e-3 * compression.max(0.0)
@@ -386,11 +386,11 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
                 tally.add(ratio, || {
                     let compression = 1e-3 * (made_for - change);
                     let becomes = match compression < 0.0 {
-                        true => format!("it goes into tension, {:.0} kN", -compression),
-                        false => format!("its compression changes to {compression:.0} kN"),
+                        true => format!("it goes into tension, {:.1} kN", -compression),
+                        false => format!("its compression changes to {compression:.1} kN"),
                     };
                     let text = format!(
-                        "{}: {becomes}, but its hinges are computed for {:.0} kN of compression; ν changes by {ratio:.2}, and the strength with it",
+                        "{}: {becomes}, but its hinges are computed for {:.1} kN of compression; ν changes by {ratio:.2}, and the strength with it",
                         member.name,
                         1e-3 * made_for
                     );

@@ -25,9 +25,9 @@ impl Table<'_> {
             let width = gb50011_joint(height, intensity, system).filter(|width| width.is_finite());
             if let Some(width) = width {
                 self.add(
-                    &format!("GB 50011, {intensity}"),
+                    &format!("GB 50011, intensity {intensity}"),
                     Some(Code::Gb50011),
-                    &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.1} m"),
+                    &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.2} m"),
                     width,
                     vec![said.clone()],
                 );

@@ -37,7 +37,7 @@ impl Table<'_> {
             let inputs = match yielding.is_empty() {
                 true => Vec::new(),
                 false => vec![format!(
-                    "periods before yielding, also of {}: equal ones make it small",
+                    "uses the periods before yielding, also of {}; with equal periods it becomes small",
                     yielding.join(" and ")
                 )],
             };
