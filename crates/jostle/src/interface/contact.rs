@@ -15,8 +15,10 @@ pub struct Contact {
     pub ports: PortPair,
     /// Height above the base \[m\].
     pub height: f64,
-    /// Gap at rest \[m\].
+    /// Gap at rest, under self weight where it acts \[m\].
     pub width: f64,
+    /// What self weight alone closes; displacements count from the unloaded structure \[m\].
+    pub closing_at_rest: f64,
     /// Force law.
     pub law: ForceLaw,
     /// Where it is in plan; `None` in one plane.
@@ -83,6 +85,12 @@ impl Contact {
         Some(dashpot.law.equivalent_restitution(ratio))
     }
 
+    /// Closing of displacements from the unloaded structure at which it touches \[m\].
+    #[must_use]
+    pub fn touches_at(&self) -> f64 {
+        self.width + self.closing_at_rest
+    }
+
     /// Whether a side lies on a column between floors.
     #[must_use]
     pub fn is_between_floors(&self) -> bool {
@@ -97,6 +105,7 @@ impl Contact {
             height: ports.height(),
             ports,
             width: 0.0,
+            closing_at_rest: 0.0,
             law: ForceLaw::Hertz {
                 stiffness: 0.0,
                 damping: 0.0,

@@ -179,7 +179,7 @@ impl Recorder {
             .filter(|(index, _)| closing_of(system, grounds, *index).is_some())
             .for_each(|(index, contact)| {
                 let [moved, ..] = grounds.closing(index, 0);
-                put(contact.ports.closing(&state.displacement) + moved);
+                put(contact.ports.closing(&state.displacement) + moved - contact.closing_at_rest);
             });
         let links = links.iter().take(system.model_links().len());
         links.for_each(|force| put(*force));

@@ -304,6 +304,16 @@ impl System {
             .map(|contact| row.gaps[contact.gap].between);
         let links = self.links.iter().map(|link| row.links[link.link].between);
         self.rigid_walls = contacts.chain(links).map(rigid).collect();
+        // Gaps are measured on buildings that bear their weight.
+        let at_rest = self.contacts.iter();
+        let at_rest = at_rest.map(|contact| closing_at_rest(self, &contact.ports));
+        let at_rest: Vec<f64> = at_rest.collect();
+        for (contact, closing) in self.contacts.iter_mut().zip(at_rest) {
+            // Frames that do not lean move by rounding alone.
+            if closing.abs() > ROUNDING {
+                contact.closing_at_rest = closing;
+            }
+        }
         if faults.is_empty() {
             Ok(())
         } else {
@@ -858,6 +868,9 @@ fn relative_to_foundation(building: &BuildingSystem, port: Port) -> Port {
     }
     port
 }
+
+/// Displacement that rounding alone causes \[m\].
+const ROUNDING: f64 = 1e-12;
 
 /// What gravity alone closes \[m\].
 fn closing_at_rest(system: &System, ports: &PortPair) -> f64 {

@@ -241,7 +241,7 @@ impl Bodies {
             let ends = system.edge_ends.iter().filter(|end| end.contact == index);
             bodies.contacts.push(Contact {
                 row: closing(&contact.ports),
-                width: contact.width * (1.0 + widen) + 1e-4 * widen,
+                width: contact.width * (1.0 + widen) + 1e-4 * widen + contact.closing_at_rest,
                 law,
                 ends: ends.map(|end| (closing(&end.ports), end.inside)).collect(),
             });

@@ -46,7 +46,7 @@ impl PlanNear {
         for (index, contact) in contacts.iter().enumerate() {
             let row = plan.place(index);
             plan_near.contacts[row] = Some(index);
-            plan_near.widths[row] = contact.width;
+            plan_near.widths[row] = contact.touches_at();
             plan_near.set_greatest(row, Extreme::default().value);
         }
         plan_near

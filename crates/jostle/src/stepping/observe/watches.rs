@@ -3,6 +3,7 @@
 use super::Places;
 use super::watch::{DeformationLimit, Drift, Statistic, Watch};
 use crate::history::{Extreme, Peak};
+use crate::interface::Contact;
 use crate::linear::Row;
 use crate::state::State;
 use crate::stepping::extremes::{greatest_in_step, take_extremes};
@@ -218,13 +219,17 @@ fn raise<T>(peaks: &mut [Peak], followed: &Followed<T>, now: Motion, start: f64,
     }
 }
 
-/// Closing of a contact, under which grounds may move apart.
+/// Closing of a contact from rest, under which grounds may move apart.
 #[inline]
 fn closing(system: &System, contact: usize, state: &State, grounds: &RunGrounds<'_>) -> Motion {
-    let ports = &system.contacts[contact].ports;
+    let Contact {
+        ports,
+        closing_at_rest,
+        ..
+    } = &system.contacts[contact];
     let [moved, rate, _] = grounds.closing(contact, 0);
     (
-        ports.closing(&state.displacement) + moved,
+        ports.closing(&state.displacement) + moved - closing_at_rest,
         ports.closing(&state.velocity) + rate,
     )
 }

@@ -2,6 +2,7 @@
 
 use super::contact_events::{ContactTrial, impact_of};
 use crate::history::{Column, Impact, Kind, Owner, Peaks, Work};
+use crate::interface::Contact;
 use crate::model::Solver;
 use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode, State};
@@ -84,11 +85,7 @@ impl<'a> RunState<'a> {
             cuts_at_corners: plan.chooses_contact_steps() && motion.has_corners_off(plan.step),
             phases: vec![ContactPhase::Open; contacts],
             crushed: vec![0.0; contacts],
-            widths: system
-                .contacts
-                .iter()
-                .map(|contact| contact.width)
-                .collect(),
+            widths: system.contacts.iter().map(Contact::touches_at).collect(),
             near: (0..contacts).collect(),
             trials: vec![
                 ContactTrial::default();
@@ -157,7 +154,7 @@ impl<'a> RunState<'a> {
         self.phases.clone_from(&state.contacts);
         for (contact, depth) in state.crushed.iter().enumerate() {
             self.crushed[contact] = *depth;
-            self.widths[contact] = self.system.contacts[contact].width + depth;
+            self.widths[contact] = self.system.contacts[contact].touches_at() + depth;
         }
     }
 
@@ -166,7 +163,8 @@ impl<'a> RunState<'a> {
         let depth = episode.memory.crushed;
         if depth > 0.0 {
             self.crushed[contact] += depth;
-            self.widths[contact] = self.system.contacts[contact].width + self.crushed[contact];
+            self.widths[contact] =
+                self.system.contacts[contact].touches_at() + self.crushed[contact];
         }
         self.phases[contact] = ContactPhase::Open;
     }
