@@ -5,6 +5,12 @@ class Watch:
         self.faces = [(left, right, gap) for _, left, right, _, gap, *_ in CONTACTS]
         self.tags = [row[0] for row in CONTACTS]
         self.normals = [NORMALS.get(tag) for tag in self.tags]
+        # Gaps are those between buildings that bear their weight.
+        bears = any(building["weight"] for building in BUILDINGS)
+        nodes = {node for left, right, _ in self.faces for node in (left, right)}
+        self.rest = {(node, way): ops.nodeDisp(node, way) if bears else 0.0 for node in nodes for way in (1, 2)}
+        for index, (left, right, gap) in enumerate(self.faces):
+            self.faces[index] = (left, right, gap + self.difference(index, lambda node, way: self.rest[node, way]))
         self.closed = [False] * len(CONTACTS)
         self.impacts = [0] * len(CONTACTS)
         self.first = [None] * len(CONTACTS)
@@ -78,12 +84,12 @@ class Watch:
 
     def add_corner(self, index):
         tag, left, right, material, *_ = CONTACTS[index]
-        # zeroLength counts strains and their rates from those that it finds; it shall find none.
+        # zeroLength counts strains and their rates from those that it finds; it shall find those at rest.
         found = []
         for node in (left, right):
             for direction in (1, 2):
                 found.append((node, direction, ops.nodeDisp(node, direction), ops.nodeVel(node, direction)))
-                ops.setNodeDisp(node, direction, 0.0, "-commit")
+                ops.setNodeDisp(node, direction, self.rest[node, direction], "-commit")
                 ops.setNodeVel(node, direction, 0.0, "-commit")
         ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
         for node, direction, displacement, velocity in found:

@@ -91,7 +91,7 @@ def build(axial):
                 ops.element("zeroLength", tag, first, last, "-mat", rigid, "-dir", direction)
     for tag, first, last, material in LEANING:
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
-    add_contacts()
+    damp()
 
 
 def add_upright_springs():
@@ -141,8 +141,8 @@ def add_fibres():
         ops.element("zeroLengthSection", tag, lower, upper, len(SLIDERS) + section, "-orient", *axis, -x, -y, 0.0, "-doRayleigh", 0)
 
 
-def add_contacts():
-    """Contacts, links, and Rayleigh damping."""
+def join_buildings():
+    """Contacts and links. They join buildings that bear their weight: zeroLength counts from the displacements that it finds."""
     for tag, left, right, material, *_ in CONTACTS:
         if tag not in CORNERS:
             ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
@@ -153,6 +153,10 @@ def add_contacts():
             ops.element("twoNodeLink", tag, lower, upper, "-mat", material, "-dir", 2)
         else:
             ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
+
+
+def damp():
+    """Rayleigh damping."""
     for number, building in enumerate(BUILDINGS, start=1):
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.
@@ -283,7 +287,7 @@ def build_in_space():
     add_diagonals()
     add_sliders()
     add_fibres()
-    add_contacts()
+    damp()
 
 
 def add_upright(where, tied, riding, free, hold):

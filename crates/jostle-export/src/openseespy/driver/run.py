@@ -285,12 +285,14 @@ def read(folder, name):
 def modes(args):
     """Natural periods, longest first [s]."""
     build("ties")
+    join_buildings()
     prepare("ties")
     try:
         values = ops.eigen("-genBandArpack", args.modes)
     except Exception:
         # ARPACK makes more vectors than modes are asked for, twice as many or eight more, and stops where fewer masses move.
         build("ties")
+        join_buildings()
         prepare("ties")
         heavy = sum(1 for row in NODES for mass in (row[3], row[3], row[4]) if mass)
         values = ops.eigen("-fullGenLapack", min(args.modes, heavy))
@@ -302,6 +304,7 @@ def analyse(args):
     duration = args.duration or DURATION
     build(args.axial)
     load_by_weight(args.axial)
+    join_buildings()
     prepare(args.axial)
     shake()
     with tempfile.TemporaryDirectory() as folder:
