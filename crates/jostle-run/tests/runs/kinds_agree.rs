@@ -548,7 +548,8 @@ fn drawn(draw: &mut Draw) -> Drawn {
                 "{{ line = {line}, length = \"1.5 m\", thickness = \"250 mm\"{hinge}{sliding} }}"
             )
         };
-        let coupled = draw.chance(0.5);
+        // One bay between walls leaves no beam to yield.
+        let coupled = draw.chance(0.5) && bays == 2;
         let walls = match coupled {
             true => format!("{}, {}", wall(1), wall(2)),
             false => wall(1),
@@ -615,7 +616,7 @@ fn of_first_line(name: &str) -> Option<String> {
 fn kinds_agree_on_features_drawn_together() {
     let mut draw = Draw(1);
     let (mut planes, mut spaces) = (0, 0);
-    for number in 0..30 {
+    for number in 0..80 {
         let drawn = drawn(&mut draw);
         let input = files::sound(&drawn.plane);
         let what = format!("draw {number}\n{}", drawn.plane);
@@ -635,5 +636,5 @@ fn kinds_agree_on_features_drawn_together() {
             spaces += 1;
         }
     }
-    assert!(planes == 30 && spaces > 8, "{planes} and {spaces}");
+    assert!(planes == 80 && spaces > 20, "{planes} and {spaces}");
 }
