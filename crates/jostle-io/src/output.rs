@@ -137,9 +137,7 @@ fn is_stream(path: &Path) -> bool {
 
 fn persist(mut file: tempfile::TempPath, path: &Path) -> std::io::Result<()> {
     if is_stream(path) {
-        let mut stream = std::fs::OpenOptions::new().write(true).open(path)?;
-        std::io::copy(&mut File::open(&file)?, &mut stream)?;
-        return stream.flush();
+        return std::fs::copy(&file, path).map(|_| ());
     }
     let mut left = TRIES.0;
     loop {

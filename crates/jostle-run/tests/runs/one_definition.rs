@@ -293,18 +293,19 @@ fn coupling_beams_that_slide_do_not_know_left_from_right() {
 /// Frames that lean towards each other under their weight keep the gap that is given: elastic ones collide as without weight.
 #[test]
 fn gaps_are_measured_on_buildings_that_bear_their_weight() {
-    let leaning = |name: &str, stiff_line: usize, gravity: bool| {
+    let leaning = |name: &str, stiff_line: usize, mass: u32, gravity: bool| {
         format!(
-            "[[building]]\nname = \"{name}\"\nstoreys = 1\nstorey_height = \"3 m\"\nspans = [\"6 m\"]\ncolumn = [{{ width = \"0.4 m\", depth = \"0.5 m\" }}, {{ width = \"0.4 m\", depth = \"0.8 m\", line = {stiff_line} }}]\nbeam = {{ width = \"0.3 m\", depth = \"0.6 m\" }}\nelastic_modulus = \"30 GPa\"\nbeam_mass = \"12 t/m\"\ncolumn_segments = 1\nbeam_segments = 2\np_delta = false\ngravity = {gravity}\n"
+            "[[building]]\nname = \"{name}\"\nstoreys = 1\nstorey_height = \"3 m\"\nspans = [\"6 m\"]\ncolumn = [{{ width = \"0.4 m\", depth = \"0.5 m\" }}, {{ width = \"0.4 m\", depth = \"0.8 m\", line = {stiff_line} }}]\nbeam = {{ width = \"0.3 m\", depth = \"0.6 m\" }}\nelastic_modulus = \"30 GPa\"\nbeam_mass = \"{mass} t/m\"\ncolumn_segments = 1\nbeam_segments = 2\np_delta = false\ngravity = {gravity}\n"
         )
     };
     let pair = |gravity: bool| {
         let gap = "[[gap]]\nbetween = [\"P\", \"Q\"]\nwidth = \"0.2 mm\"\nlaw = \"linear\"\nstiffness = \"100 MN/m\"\n";
-        let [left, right] = [("P", 1), ("Q", 2)].map(|(name, line)| leaning(name, line, gravity));
+        let sides = [("P", 1, 12), ("Q", 2, 30)];
+        let [left, right] = sides.map(|(name, line, mass)| leaning(name, line, mass, gravity));
         let mut model = files::sound(&format!("{MOTION}{left}{right}{gap}")).model;
         model.analysis.step = Some(1e-3);
         model.analysis.solver = Some(Solver::Riccati);
-        let motion = fading("one", 6.0, [3.0, 0.2], 200);
+        let motion = fading("one", 8.0, [4.0, 1.6], 200);
         let (system, _, summary) = runs::run_and_summary(&model, &motion);
         (system.contacts[0].closing_at_rest, summary.gaps[0].clone())
     };

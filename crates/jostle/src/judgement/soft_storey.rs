@@ -12,15 +12,20 @@ const OF_THREE: f64 = 0.8;
 /// Stiffness of storeys over the least that is not soft, along x and across.
 pub(super) fn soft_storey(known: &Known<'_>, tally: &mut Tally<'_>) {
     for building in &known.system.buildings {
-        let modes = building.fundamental_modes().into_iter().enumerate();
-        for (direction, mode) in modes.filter_map(|(direction, mode)| Some((direction, mode?))) {
-            compare(building, direction, mode, tally);
+        let modes = building.fundamental_modes();
+        let names = match modes {
+            [_, Some(_)] => [" along x", " along y"],
+            [_, None] => [""; 2],
+        };
+        for (direction, mode) in modes.into_iter().enumerate() {
+            let Some(mode) = mode else { continue };
+            let stiffnesses = stiffnesses(building, direction, mode);
+            compare(&building.name, &stiffnesses, names[direction], tally);
         }
     }
 }
 
-fn compare(building: &BuildingSystem, direction: usize, mode: &Mode, tally: &mut Tally<'_>) {
-    let stiffnesses = stiffnesses(building, direction, mode);
+fn compare(name: &str, stiffnesses: &[f64], along: &str, tally: &mut Tally<'_>) {
     for (storey, here) in stiffnesses.iter().enumerate() {
         let above = &stiffnesses[storey + 1..];
         let next = above.first().copied();
@@ -40,18 +45,13 @@ fn compare(building: &BuildingSystem, direction: usize, mode: &Mode, tally: &mut
         for (reference, share, of) in references {
             let Some(reference) = reference else { continue };
             tally.add(here / (share * reference), || {
-                let along = match (building.is_in_space(), direction) {
-                    (false, _) => "",
-                    (true, 0) => " along x",
-                    (true, _) => " along y",
-                };
                 let text = format!(
                     "{}: storey {} is soft{along}, with {:.0} % of {of}",
-                    quoted(&building.name),
+                    quoted(name),
                     storey + 1,
                     100.0 * here / reference,
                 );
-                (format!("{}, storey {}", building.name, storey + 1), text)
+                (format!("{name}, storey {}", storey + 1), text)
             });
         }
     }
