@@ -11,9 +11,10 @@ FOLDER = Path(__file__).resolve().parent.parent / "crates/jostle-validation/data
 FREE = 5e-4
 FREE_IN_PLAN = 1e-4
 # Half of that where the force of a blow moves by more than 3e-4.
-HALVED = {"continuous", "damping_tangent", "fibres", "grounds"}
+HALVED = {"damping_tangent", "fibres", "grounds"}
 # So many times as long for models of many equations; panels fall at ends of steps.
 LONGER = {
+    "continuous": 0.2,
     "falling": 0.2,
     "pendulums": 0.2,
     "plan_askew": 4,
