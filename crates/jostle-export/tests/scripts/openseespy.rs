@@ -412,7 +412,7 @@ fn strength_that_falls_with_ductility_is_refused() {
 /// which OpenSees would leave them out of its matrix.
 #[test]
 fn springs_of_given_matrices_have_materials_and_their_damping() {
-    let text = "[motion]\nrecord = \"el-centro-1940-ns\"\n[[building]]\nname = \"A\"\nkind = \"given\"\nports = { 1 = { dof = 2, height = \"6 m\" } }\nmatrices = { influence = [1, 1], mass = [1e5, 8e4], stiffness = [[1.5e8, -5e7], [-5e7, 5e7]]";
+    let text = "[motion]\nrecord = \"el-centro-1940-ns\"\n[[building]]\nname = \"A\"\nkind = \"given\"\nports = { 1 = { dof = 1, height = \"3 m\" }, 2 = { dof = 2, height = \"6 m\" } }\nmatrices = { mass = [1e5, 8e4], stiffness = [[1.5e8, -5e7], [-5e7, 5e7]]";
     let damped = format!("{text}, damping = [[3e5, -1e5], [-1e5, 1e5]] }}\n");
     let by_ratio = format!("{text} }}\ndamping = {{ ratio = 0.03 }}\n");
     for (text, initial, undamped) in [(&damped, 2, 2), (&by_ratio, 2, 0)] {
