@@ -57,8 +57,16 @@ fn facts(prepared: &Prepared) -> String {
 /// Templates with what models of the reader lack: contact laws, links, walls of a site.
 const TEMPLATES: [&str; 3] = ["towers", "heritage", "isolated-moat"];
 
-/// Models of the reader with soil, foundations and what stands on them.
-const MODELS: [&str; 2] = ["embedded.toml", "foundations.toml"];
+/// Models of the reader.
+const MODELS: [&str; 7] = [
+    "bearings.toml",
+    "embedded.toml",
+    "foundations.toml",
+    "frames_of_many_parts.toml",
+    "lifting.toml",
+    "plans.toml",
+    "vertical.toml",
+];
 
 /// Every number of some models, changed alone after the model as it is: what cases share makes no difference.
 #[test]
