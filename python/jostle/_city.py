@@ -320,8 +320,8 @@ class CityResult:
         >>> result = city.run("city-results")
         >>> result.complete
         True
-        >>> len(jostle.run(result.model(3, draw=1)).summary["gaps"])
-        1
+        >>> len(jostle.run(result.model(3, draw=1)).summary["gaps"])  # in the whole row
+        3
     """
 
     city: City

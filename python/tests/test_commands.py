@@ -132,7 +132,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--force": "Model.save:force",
         },
     ),
-    "city check": ("footprints", OF_FOOTPRINTS),
+    "city check": ("footprints", {**OF_FOOTPRINTS, "--table": Why("City reads the types with the table of the city file")}),
     "city pairs": ("footprints", {**OF_FOOTPRINTS, "--out": "out"}),
     "city run": (
         "City.run",
@@ -237,6 +237,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
         {
             **RECORD,
             "OUT": "Motion.save:path",
+            "--out": "Motion.save:path",
             "--from": "start",
             "--to": "stop",
             "--detrend": "detrend",
