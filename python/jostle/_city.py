@@ -357,7 +357,7 @@ class CityResult:
         return CitySummary(**json.loads(self.city._core.report(os.fspath(self.folder))))
 
     def model(self, pair: int, draw: int = 0, motion: int = 0) -> Model:
-        """Returns a pair as a model, which can be run and changed like any other; numbers count from 0.
+        """Returns a pair as a model, with the other buildings of the row in which the city ran it; numbers count from 0.
 
         Raises:
             ModelError: there is no such pair, or it shares a wall in this draw.
