@@ -433,8 +433,23 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
     if summary.gaps.is_empty() {
         return Vec::new();
     }
+    let bounded = summary.isolation_bounds.as_ref();
     if count == 0 {
-        return vec![tile(message::impacts_title(), message::none(), "")];
+        let note = bounded.map_or("", |_| message::of_nominal_bearings());
+        let mut tiles = vec![tile(message::impacts_title(), message::none(), note)];
+        // Of bearings at their bounds alone.
+        let forces = bounded.iter().flat_map(|bounds| &bounds.gaps);
+        let force = forces
+            .map(|gap| gap.peak_force_n.envelope)
+            .fold(0.0, f64::max);
+        if force > 0.0 {
+            let at = message::greatest_over_bounds();
+            tiles.insert(
+                0,
+                tile(message::peak_force_title(), format::force(force), at),
+            );
+        }
+        return tiles;
     }
     let contacts = summary.gaps.iter().flat_map(|gap| {
         let contacts = gap.contacts.iter();

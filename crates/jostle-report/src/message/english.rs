@@ -540,6 +540,7 @@ messages! {
     numerical_error_alone = "Contact stiffness and the choice of records usually matter more: add --sensitivity, and run several records.";
     first_at(instant) = "first at {instant}";
     none = "none";
+    of_nominal_bearings = "with nominal bearings";
     peak_closing_title(pair) = "Peak closing{pair}";
     gap_left(width, left) = "gap {width}, {left} left";
     gap_needed(pair) = "Gap needed{pair}";
@@ -584,7 +585,7 @@ messages! {
     until_the_run_ended = "Until the run ended:";
     with_nominal_bearings(verdict) = "With nominal bearings: {verdict}";
     at_the_bounds_of_the_bearings(left, right, force) = "At the bounds of the bearings, {left} and {right} collide with up to {force}.";
-    at_the_bounds_of_the_bearings_gaps(count, left, right, force) = "At the bounds of the bearings, {count} more gaps close; {left} and {right} collide with up to {force}.";
+    at_the_bounds_of_the_bearings_gaps(count, left, right, force) = "At the bounds of the bearings, {count} gaps close; {left} and {right} collide with up to {force}.";
     drift_of(name, drift) = "{name}: drift {drift}";
 
     // bounds
