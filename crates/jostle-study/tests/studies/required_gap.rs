@@ -54,10 +54,15 @@ values = ["0.2 g", "0.3 g"]
 
 /// The page of the study of a model, and what a search of its gap finds.
 fn page_and_search(model: &str) -> (String, CriticalGap) {
+    of_study(model, STUDY)
+}
+
+/// The same of another study.
+fn of_study(model: &str, study: &str) -> (String, CriticalGap) {
     let folder = tempfile::tempdir().expect("a folder");
     let path: &Path = folder.path();
     std::fs::write(path.join("pair.toml"), model).expect("the model");
-    let file = StudyFile::parse("study.toml", STUDY, Format::Toml, path, None);
+    let file = StudyFile::parse("study.toml", study, Format::Toml, path, None);
     let study = Study::new(file.unwrap_or_else(|error| panic!("{error}")));
     let study = study.unwrap_or_else(|error| panic!("{error}"));
     let out = path.join("out");
@@ -129,4 +134,18 @@ fn the_gap_needed_of_a_study_is_that_of_a_search() {
     let needed = number(&LENGTH.rounded_up(found.gap_m));
     let row = needed + &cells(&found, &["ABS", "SRSS"]);
     assert!(page.contains(&row), "{row}");
+}
+
+/// Runs without contact know the gap needed, also where every gap of the study is hit.
+#[test]
+fn the_gap_needed_beyond_all_gaps_is_that_of_runs_without_contact() {
+    let set_back = "[[building.column]]\nline = 3\nstoreys = [2, 3]\nomit = true\n";
+    let straight = SET_BACK.replace(set_back, "");
+    let narrow = STUDY.replace("\"150 mm\", \"200 mm\"", "\"5 mm\", \"10 mm\"");
+    let (page, found) = of_study(&straight, &narrow);
+    assert!(found.gap_m > 0.02, "{}", found.gap_m);
+    let needed = number(&LENGTH.rounded_up(found.gap_m));
+    assert!(!page.contains(&needed), "known without such runs");
+    let (page, _) = of_study(&straight, &format!("without_contact = true\n{narrow}"));
+    assert!(page.contains(&needed), "{needed}");
 }
