@@ -203,3 +203,29 @@ fn bounds_that_mean_nothing_are_refused() {
         assert!(text.contains(":10"), "{bounds}: {text}");
     }
 }
+
+/// A moat between the gap needed by nominal bearings and that at their bounds: the verdict says that they collide there alone.
+#[test]
+fn the_verdict_names_collisions_at_the_bounds_alone() {
+    let bounded = format!(
+        "{}, bounds = {{ lower = 0.7, upper = 1.3 }}",
+        lead(1.0, 1.0)
+    );
+    let wide = model(&bounded, "").replace("30 mm", "1 m");
+    let needed = run(&wide).isolation_bounds.expect("bounds").gaps[0].closing_without_contact_m;
+    let needed = needed.expect("runs without contact");
+    assert!(needed.envelope > 1.02 * needed.nominal, "{needed:?}");
+    let between = 500.0 * (needed.nominal + needed.envelope);
+    let summary = run(&model(&bounded, "").replace("30 mm", &format!("{between} mm")));
+    assert_eq!(summary.gaps[0].impact_count, 0);
+    let force = summary.isolation_bounds.as_ref().expect("bounds").gaps[0]
+        .peak_force_n
+        .envelope;
+    let verdict = jostle_report::verdict(&summary);
+    let said = format!(
+        "At the bounds of the bearings, A and moat collide with up to {:.0}",
+        1e-3 * force
+    );
+    assert!(verdict.contains(&said), "{verdict}");
+    assert!(!jostle_report::verdict(&run(&wide)).contains("At the bounds"));
+}
