@@ -78,8 +78,9 @@ pub(super) fn ground_summary(index: usize, run: &Run<'_>) -> Option<GroundSummar
     })
 }
 
-/// How much of the closing of a contact at an instant is that of its grounds \[m\]; `None` where one ground is under all.
-pub(super) fn closing_of_grounds(contact: usize, at: f64, run: &Run<'_>) -> Option<f64> {
+/// How much of the closing of a joint at an instant is that of its grounds \[m\]; `None` where one ground is under all. Joints: the
+/// contacts of the system, then its links.
+pub(super) fn closing_of_grounds(joint: usize, at: f64, run: &Run<'_>) -> Option<f64> {
     let grounds = RunGrounds::new(run.system, run.motion);
-    grounds.part.then(|| grounds.closing_at(contact, at))
+    grounds.part.then(|| grounds.closing_at(joint, at))
 }

@@ -422,7 +422,9 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
             let peaks = outcome.peaks.owned_by(Owner::Link(place));
             let force = peaks.of(Kind::Force).furthest();
             let work = outcome.peaks.work(Owner::Link(place));
-            let shortening = element.shortening(&outcome.state.displacement);
+            let joint = system.contacts.len() + place;
+            let moved = closing_of_grounds(joint, outcome.state.time, run).unwrap_or(0.0);
+            let shortening = element.shortening(&outcome.state.displacement) + moved;
             LinkFloorSummary {
                 floors: floors_of(element),
                 height_m: element.height,

@@ -21,6 +21,11 @@ pub(crate) struct EnergyAudit {
     pub(crate) links: f64,
     /// The same of links that slip or yield.
     pub(crate) yielding_links: f64,
+    /// Work of the weight of buildings that start under it.
+    pub(crate) weight: f64,
+    /// Recoverable energy of buildings at rest under their weight.
+    at_rest: f64,
+    /// Other energy at the start.
     initial: f64,
     imbalance: Imbalance,
 }
@@ -95,12 +100,13 @@ impl EnergyAudit {
     /// Starts from a state that may already have energy.
     pub(crate) fn starting_from(system: &System, state: &State, grounds: &RunGrounds<'_>) -> Self {
         let stored = stored(system, state, grounds);
+        let recoverable = stored.strain + stored.springs + stored.links + stored.yielding_links;
+        let mut buildings = system.buildings.iter();
+        let bears_weight = buildings.any(|building| !building.rest.displacement.is_empty());
+        let at_rest = if bears_weight { recoverable } else { 0.0 };
         Self {
-            initial: stored.kinetic
-                + stored.strain
-                + stored.springs
-                + stored.links
-                + stored.yielding_links,
+            at_rest,
+            initial: stored.kinetic + recoverable - at_rest,
             springs: stored.springs,
             links: stored.links,
             yielding_links: stored.yielding_links,
@@ -113,7 +119,7 @@ impl EnergyAudit {
         self.imbalance.watch(Energy {
             input: self.input + self.initial,
             kinetic,
-            strain,
+            strain: strain - self.at_rest - self.weight,
             damped: self.damped + self.links,
             hysteretic: self.springs + self.yielding_links,
             contact: self.contact,
@@ -121,7 +127,8 @@ impl EnergyAudit {
         });
     }
 
-    /// The balance now. Energy present at the start counts as input.
+    /// The balance now. Energy present at the start counts as input. Strain energy is that beyond rest under weight, less what
+    /// the weight gave.
     pub(crate) fn balance(
         &mut self,
         system: &System,
@@ -130,7 +137,8 @@ impl EnergyAudit {
     ) -> Energy {
         let stored = stored(system, state, grounds);
         let kinetic = stored.kinetic;
-        let strain = stored.strain + stored.springs + stored.links + stored.yielding_links;
+        let recoverable = stored.strain + stored.springs + stored.links + stored.yielding_links;
+        let strain = recoverable - self.at_rest - self.weight;
         let links = self.links - stored.links;
         self.imbalance.watch(Energy {
             input: self.input + self.initial,

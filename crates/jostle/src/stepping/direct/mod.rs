@@ -330,7 +330,7 @@ impl Direct {
             }
             if !building.rest.displacement.is_empty() {
                 let sunk = simd::dot(&equations.weighing_mass, rises);
-                self.audit.input -= STANDARD_GRAVITY * sunk;
+                self.audit.weight -= STANDARD_GRAVITY * sunk;
             }
         }
         Ok(())

@@ -4,7 +4,8 @@ use jostle::history::Column;
 use jostle::model::LinkLaw;
 use jostle::{
     Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, Grounds, LawKind,
-    Level, Link, Model, Outcome, OwnGround, Plan, Settings, Solver, Structure, System, Wall, Wave,
+    Level, Link, Model, Outcome, OwnGround, Plan, Settings, Solver, Structure, Summary, System,
+    Wall, Wave,
 };
 use jostle_testkit::models::{CONCRETE, equal_storeys};
 use jostle_testkit::runs::{completed, planned};
@@ -249,6 +250,20 @@ fn energy_closes_with_contacts_links_and_momentum_laws() {
             assert!(outcome.energy.ground != 0.0);
             let worst = outcome.energy.worst_imbalance;
             assert!(worst < 1e-9, "{kind:?}: {worst}");
+            // What the balance says of links, each link says of itself.
+            let plan = planned(&system, &motion, &pair.analysis);
+            let summary = Summary::new(&jostle::Run {
+                model: &pair,
+                system: &system,
+                motion: &motion,
+                plan: &plan,
+                outcome,
+                without_contact: None,
+                wall: 0.0,
+            });
+            let taken: f64 = summary.links.iter().map(|link| link.dissipated_j).sum();
+            let balance = outcome.energy.links + outcome.energy.hysteretic;
+            close(taken, balance, outcome.energy.input, 1e-9);
         }
         if let [modal, direct] = &outcomes[..] {
             assert_eq!(modal.impacts.len(), direct.impacts.len(), "{kind:?}");
@@ -346,6 +361,19 @@ fn portal(gravity: bool) -> Model {
     let mut building = framed("P", frame);
     building.gravity.preload = gravity;
     model(vec![building], Vec::new())
+}
+
+/// Weight that a frame bears at rest is neither work of the ground nor strain energy of its motion.
+#[test]
+fn energies_of_motion_are_those_without_weight() {
+    let motion = record(0.02, 151, 0.2);
+    let [borne, weightless] = [true, false].map(|gravity| {
+        let system = assembled(&portal(gravity));
+        run_for_balance(&system, &motion, Solver::Riccati).energy
+    });
+    close(borne.input, weightless.input, weightless.input, 1e-6);
+    close(borne.strain, weightless.strain, weightless.input, 1e-6);
+    assert!(borne.worst_imbalance < 1e-9, "{borne:?}");
 }
 
 fn upwards(share: f64) -> GroundMotion {
