@@ -94,15 +94,10 @@ impl Cases {
         let x = axis.value(index, self.counts[0]);
         let across = self.curve.across.as_ref();
         let z = across.map(|across| across.value(row, self.counts[1]));
-        let widens = axis.is_width();
         let apart = &self.apart[record * self.counts[1] + row];
-        let known = widens.then(|| beyond(apart, x)).flatten();
         // A case on which the program fails is a hole in the curve.
-        let one = || self.one(engine, record, x, z, stop);
-        let y = known.or_else(|| catch_unwind(AssertUnwindSafe(one)).ok().flatten());
-        if let Some(y) = y.filter(|y| widens && y[1] == 0.0) {
-            keep_apart(apart, x, y);
-        }
+        let one = || self.one(engine, record, (x, z), apart, stop);
+        let y = catch_unwind(AssertUnwindSafe(one)).ok().flatten();
         Point { record, x, z, y }
     }
 
@@ -110,8 +105,8 @@ impl Cases {
         &self,
         engine: &Engine,
         record: usize,
-        x: f64,
-        z: Option<f64>,
+        (x, z): (f64, Option<f64>),
+        apart: &Apart,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Option<[f64; 4]> {
         let curve = &self.curve;
@@ -125,6 +120,10 @@ impl Cases {
                 .ok()?;
         }
         let prepared = engine.prepare(&tree, curve.run.record).ok()?;
+        let widens = curve.axis.is_width() && !prepared.input.model.moves_by_gaps();
+        if let Some(y) = widens.then(|| beyond(apart, x)).flatten() {
+            return Some(y);
+        }
         let settings = Settings {
             record_interval: None,
             ..Settings::default()
@@ -136,8 +135,14 @@ impl Cases {
                 ControlFlow::Continue(())
             }
         });
-        (outcome.end == jostle::RunEnd::Completed)
-            .then(|| measures(&prepared.summary(&outcome, None, 0.0)))
+        if *outcome.end_of_all() != jostle::RunEnd::Completed {
+            return None;
+        }
+        let y = measures(&prepared.summary(&outcome, None, 0.0));
+        if widens && y[1] == 0.0 {
+            keep_apart(apart, x, y);
+        }
+        Some(y)
     }
 }
 
@@ -159,7 +164,7 @@ pub(crate) fn points(
         });
 }
 
-/// Smallest width known to leave no impact, and the results there. Wider gaps give the same run.
+/// Smallest width known to leave no impact, and the results there. Wider gaps give the same run, if gaps do nothing but keep apart.
 type Apart = Mutex<Option<(f64, [f64; 4])>>;
 
 fn beyond(apart: &Apart, x: f64) -> Option<[f64; 4]> {

@@ -41,9 +41,9 @@ pub struct Engine {
     apart: Mutex<Vec<Apart>>,
 }
 
-/// A run without contact, which does not depend on the widths of the gaps.
+/// A run without contact.
 struct Apart {
-    /// Its model, with all gaps closed.
+    /// Its model, with all gaps closed that it does not depend on.
     model: Model,
     motion: GroundMotion,
     outcome: Arc<Outcome>,
@@ -261,7 +261,7 @@ impl Engine {
             pounding: Pounding::Excluded,
             ..settings
         };
-        let model = with_closed_gaps(&prepared.input.model);
+        let model = without_gaps(&prepared.input.model);
         let known = {
             let kept = self.apart.lock().unwrap_or_else(PoisonError::into_inner);
             let same = |run: &&Apart| run.model == model && run.motion == prepared.motion;
@@ -273,7 +273,7 @@ impl Engine {
             || wanted.then(|| prepared.step(apart, watch)),
         );
         let without = known.or(computed.map(Arc::new));
-        let stopped = |outcome: &Outcome| outcome.end == RunEnd::Stopped;
+        let stopped = |outcome: &Outcome| *outcome.end_of_all() == RunEnd::Stopped;
         if stopped(&outcome) || without.as_ref().is_some_and(|run| stopped(run)) {
             return Err(Trouble::Stopped);
         }
@@ -428,9 +428,12 @@ impl Clock {
     }
 }
 
-/// A model with all gaps closed: what runs without contact have in common.
-fn with_closed_gaps(model: &Model) -> Model {
+/// What a run without contact depends on: the model, whatever the widths of its gaps, unless buildings move otherwise with them.
+fn without_gaps(model: &Model) -> Model {
     let mut model = model.clone();
+    if model.moves_by_gaps() {
+        return model;
+    }
     for gap in &mut model.gaps {
         for width in &mut gap.widths {
             *width = 0.0;
@@ -515,32 +518,52 @@ mod tests {
     use super::*;
 
     fn engine(folder: &Path) -> Engine {
+        engine_of(folder, jostle_io::model_text("paper").unwrap_or_default())
+    }
+
+    fn engine_of(folder: &Path, text: &str) -> Engine {
         let model = folder.join("model.toml");
-        let text = jostle_io::model_text("paper").unwrap_or_default();
         std::fs::write(&model, text).unwrap_or_else(|error| panic!("{error}"));
         Engine::open(&model).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn solved_at(engine: &Engine, width: &str) -> Solved {
+        let run = Run {
+            id: 1,
+            text: engine.text.clone(),
+            edits: vec![("gap[0].width".into(), width.into())],
+            record: 0,
+        };
+        let tree = engine.tree(&run);
+        let tree = tree.unwrap_or_else(|error| panic!("{error:?}"));
+        let prepared = engine.prepare(&tree, 0);
+        let prepared = prepared.unwrap_or_else(|error| panic!("{error:?}"));
+        let solved = engine.solve(prepared, &|_| ControlFlow::Continue(()));
+        solved.unwrap_or_else(|error| panic!("{error:?}"))
+    }
+
+    /// Foundations that act on each other do so across the gap: buildings move otherwise apart, without contact too.
+    #[test]
+    fn a_run_without_contact_is_kept_only_if_gaps_do_nothing_else() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let example = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../examples/two_towers_on_soil.toml"
+        );
+        let text = std::fs::read_to_string(example).unwrap_or_else(|error| panic!("{error}"));
+        let [kept, fresh] = [(); 2].map(|()| engine_of(folder.path(), &text));
+        let closing = |solved: &Solved| solved.summary.gaps[0].closing_without_contact_m;
+        let near = closing(&solved_at(&kept, "25 mm"));
+        let far = closing(&solved_at(&kept, "2 m"));
+        assert_eq!(far, closing(&solved_at(&fresh, "2 m")));
+        assert_ne!(far, near);
     }
 
     #[test]
     fn a_kept_run_without_contact_is_that_of_the_other_width() {
         let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
         let [kept, fresh] = [engine(folder.path()), engine(folder.path())];
-        let run = |width: &str| Run {
-            id: 1,
-            text: kept.text.clone(),
-            edits: vec![("gap[0].width".into(), width.into())],
-            record: 0,
-        };
-        let solve = |engine: &Engine, width: &str| {
-            let tree = engine
-                .tree(&run(width))
-                .unwrap_or_else(|error| panic!("{error:?}"));
-            let prepared = engine
-                .prepare(&tree, 0)
-                .unwrap_or_else(|error| panic!("{error:?}"));
-            let solved = engine.solve(prepared, &|_| ControlFlow::Continue(()));
-            solved.unwrap_or_else(|error| panic!("{error:?}"))
-        };
+        let solve = solved_at;
         let first = solve(&kept, "90 mm").without;
         let second = solve(&kept, "40 mm");
         let alone = solve(&fresh, "40 mm");

@@ -20,7 +20,8 @@ pub struct GapSettings {
     pub outcomes: bool,
     /// Whether the motion is taken with its other sign too.
     pub reversed: bool,
-    /// Points of the curve of force over gap, from zero to the smallest gap without pounding; 0 for none, else at least 2.
+    /// Points of the curve of force over gap, from zero (with static coupling of foundations, from the first point beyond) to the
+    /// smallest gap without pounding; 0 for none, else at least 2.
     pub curve: usize,
 }
 
@@ -592,11 +593,13 @@ impl Search<'_> {
         let curve: Vec<f64> = match settings.curve {
             0 => Vec::new(),
             count => {
-                let share = 1.0 / (count.max(2) - 1) as f64;
+                // Foundations that act on each other across a gap need one.
+                let first = usize::from(self.model.moves_by_gaps());
+                let share = 1.0 / (count.max(2) - 1 + first) as f64;
                 let other =
                     reversed_closing.map_or(0.0, |closing| closing + 0.5 * settings.tolerance);
                 let end = bracket.free.max(other);
-                let widths = (0..count).map(|i| share * i as f64 * end);
+                let widths = (first..first + count).map(|i| share * i as f64 * end);
                 widths.collect()
             }
         };
@@ -900,6 +903,29 @@ mod tests {
         };
         assert!(counted(part) < counted(whole));
         assert_eq!(counted(whole), whole.rules.len());
+    }
+
+    /// Foundations that act on each other cannot touch.
+    #[test]
+    fn curves_over_coupled_foundations_begin_beyond_zero() {
+        let example = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../examples/two_towers_on_soil.toml"
+        );
+        let example = std::path::Path::new(example);
+        let input = jostle_io::read_model_file(example).unwrap_or_else(|error| panic!("{error}"));
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let settings = GapSettings {
+            outcomes: false,
+            curve: 3,
+            ..GapSettings::default()
+        };
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false);
+        let curve = &found.unwrap_or_else(|error| panic!("{error}"))[0].curve;
+        let [first, second, third] = [0, 1, 2].map(|at| curve[at].width_m);
+        assert!(first > 0.0 && second == 2.0 * first && (third / first - 3.0).abs() < 1e-12);
     }
 
     /// Every point of the curve is the run of a model with that width, assembled by itself.

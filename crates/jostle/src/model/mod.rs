@@ -776,6 +776,13 @@ impl Model {
 }
 
 impl Model {
+    /// Whether the widths of gaps change the motion of buildings that do not touch: foundations act on each other across them.
+    #[must_use]
+    pub fn moves_by_gaps(&self) -> bool {
+        let soil = self.soil.as_ref();
+        soil.is_some_and(|soil| soil.coupling == SoilCoupling::Static)
+    }
+
     /// The wall of a side of a gap or a link, if it is one of [`Model::walls`].
     #[must_use]
     pub fn wall(&self, side: Option<usize>) -> Option<&Wall> {
