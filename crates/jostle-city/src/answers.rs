@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use jostle::linear::quantile;
+
 use crate::case::{Case, read_cases};
 use crate::draw::GapWidths;
 use crate::fault::CityError;
@@ -180,12 +182,9 @@ impl City {
         answers.changed = [share(worse, samples), share(better, samples)];
         answers.in_rows = share(in_rows, cases_seen);
         cut.sort_by(f32::total_cmp);
-        answers.cut = (
-            cut.len(),
-            [0.5, 0.95].map(|of| f64::from(quantile(&cut, of))),
-        );
+        answers.cut = (cut.len(), [0.5, 0.95].map(|share| quantile_of(&cut, share)));
         ratios.sort_by(f32::total_cmp);
-        answers.drift_ratios = [0.05, 0.5, 0.95, 0.99].map(|of| f64::from(quantile(&ratios, of)));
+        answers.drift_ratios = [0.05, 0.5, 0.95, 0.99].map(|share| quantile_of(&ratios, share));
         Ok(answers)
     }
 
@@ -212,7 +211,7 @@ impl City {
             .map(|case| case.force as f32)
             .collect();
         forces.sort_by(f32::total_cmp);
-        let two = |values: &[f32]| [0.5, 0.9].map(|of| f64::from(quantile(values, of)));
+        let two = |values: &[f32]| [0.5, 0.9].map(|share| quantile_of(values, share));
         PairAnswer {
             samples: cases.len(),
             hits: cases.iter().filter(|case| case.impacts > 0).count(),
@@ -300,7 +299,7 @@ impl City {
             let count = samples as f64;
             let median = |drifts: &mut Vec<f32>| {
                 drifts.sort_by(f32::total_cmp);
-                f64::from(quantile(drifts, 0.5))
+                quantile_of(drifts, 0.5)
             };
             let answer = BuildingAnswer {
                 samples,
@@ -324,9 +323,10 @@ fn worsened(case: &Case) -> usize {
 }
 
 /// A quantile of sorted values; 0 of none.
-fn quantile(sorted: &[f32], of: f64) -> f32 {
-    match sorted.len() {
-        0 => 0.0,
-        count => sorted[((count - 1) as f64 * of).round() as usize],
+fn quantile_of(sorted: &[f32], share: f64) -> f64 {
+    if sorted.is_empty() {
+        0.0
+    } else {
+        quantile(sorted, share)
     }
 }

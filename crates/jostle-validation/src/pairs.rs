@@ -220,8 +220,11 @@ pub fn study(seeds: std::ops::RangeInclusive<u64>, tolerance: f64) -> Vec<Compar
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let place = (share * (sorted.len().saturating_sub(1)) as f64).round() as usize;
-    sorted.get(place).copied().unwrap_or(0.0)
+    if sorted.is_empty() {
+        0.0
+    } else {
+        jostle::linear::quantile(&sorted, share)
+    }
 }
 
 /// The study in words and a table.

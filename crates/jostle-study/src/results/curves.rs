@@ -1,12 +1,11 @@
 //! Curves over the gap for every intensity, and demand over intensity (IDA).
 
-use jostle::linear::sort_by;
+use jostle::linear::{quantile, sort_by};
 use jostle_io::Values;
 use jostle_report::message;
 use jostle_report::{Chart, Section, Series, Stroke};
 
 use super::{Results, words};
-use crate::statistics::percentile;
 use crate::study::StudyError;
 
 /// Groups of curves at most.
@@ -325,7 +324,7 @@ fn fractiles(curves: &[(String, Vec<[f64; 2]>)]) -> Vec<(f64, Vec<[f64; 2]>)> {
         .map(|share| {
             let points = at_places
                 .iter()
-                .map(|(place, d)| [*place, percentile(d, share)]);
+                .map(|(place, d)| [*place, quantile(d, share)]);
             (share, points.collect())
         })
         .to_vec()

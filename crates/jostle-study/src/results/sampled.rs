@@ -1,12 +1,12 @@
 //! Results over inputs of sampled studies: every case as a dot, the mean and the middle two thirds over classes of an input.
 
-use jostle::linear::sort_by;
+use jostle::linear::{quantile, sort_by};
 use jostle_report::message;
 use jostle_report::{Chart, Section, Series, Stroke};
 
 use super::{Results, rankings, words};
 use crate::layout::Kind;
-use crate::statistics::{classes, given_data, percentile};
+use crate::statistics::{classes, given_data};
 
 /// Inputs of a result that are drawn, those of greatest influence.
 const MOST_INPUTS: usize = 6;
@@ -78,7 +78,7 @@ fn marginal(points: &[[f64; 2]]) -> Series {
         means.push([mean(0), mean(1)]);
         let mut values: Vec<f64> = class.iter().map(|point| point[1]).collect();
         values.sort_by(f64::total_cmp);
-        band.push([percentile(&values, 0.16), percentile(&values, 0.84)]);
+        band.push([quantile(&values, 0.16), quantile(&values, 0.84)]);
     }
     Series {
         name: message::mean_of_records().into(),

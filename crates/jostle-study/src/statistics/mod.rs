@@ -15,6 +15,5 @@ pub use fragility::{FitError, Lognormal, fit_lognormal};
 pub(crate) use given_data::classes;
 pub use given_data::{GivenData, given_data};
 pub use modified_cloud::{Logistic, MixedCurve, ModifiedCloud, fit_modified_cloud};
-pub(crate) use resample::percentile;
 pub use resample::{Band, bootstrap_band};
 pub use sensitivity::{ElementaryEffects, SobolIndex, elementary_effects, sobol_indices};

@@ -1,5 +1,7 @@
 //! Confidence bands by the bootstrap (Efron 1979).
 
+use jostle::linear::quantile;
+
 use super::curve::Curve;
 use super::fragility::FitError;
 use crate::sampling::Stream;
@@ -48,7 +50,7 @@ pub fn bootstrap_band<T: Copy, C: Into<Curve>>(
     let tail = 0.5 * (1.0 - confidence);
     let limits = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
-        [percentile(&values, tail), percentile(&values, 1.0 - tail)]
+        [quantile(&values, tail), quantile(&values, 1.0 - tail)]
     };
     let bands: Vec<[f64; 2]> = at
         .iter()
@@ -71,18 +73,6 @@ pub fn bootstrap_band<T: Copy, C: Into<Curve>>(
                 .collect(),
         ),
     })
-}
-
-/// A percentile of sorted values, between neighbours by a straight line; `share` in 0..=1.
-pub(crate) fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let last = sorted.len().saturating_sub(1);
-    let at = share * last as f64;
-    let below = (at.floor() as usize).min(last);
-    let above = (below + 1).min(last);
-    match (sorted.get(below), sorted.get(above)) {
-        (Some(low), Some(high)) => low + (at - below as f64) * (high - low),
-        _ => f64::NAN,
-    }
 }
 
 #[cfg(test)]
@@ -125,12 +115,5 @@ mod tests {
             held += usize::from(band.median[0] <= 1.0 && 1.0 <= band.median[1]);
         }
         held
-    }
-
-    #[test]
-    fn percentiles_of_few_values() {
-        assert_eq!(percentile(&[1.0, 2.0, 4.0], 0.5), 2.0);
-        assert_eq!(percentile(&[1.0, 2.0, 4.0], 0.75), 3.0);
-        assert_eq!(percentile(&[7.0], 0.05), 7.0);
     }
 }

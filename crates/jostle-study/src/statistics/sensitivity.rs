@@ -1,6 +1,7 @@
 //! Which factors matter: variance shares and elementary effects.
 
-use super::resample::percentile;
+use jostle::linear::quantile;
+
 use crate::sampling::Stream;
 
 /// Shares of the variance that one factor accounts for.
@@ -53,7 +54,7 @@ pub fn sobol_indices(
     let limits = |factor: usize, which: usize| {
         let mut values: Vec<f64> = resampled.iter().map(|one| one[factor][which]).collect();
         values.sort_by(f64::total_cmp);
-        [percentile(&values, 0.05), percentile(&values, 0.95)]
+        [quantile(&values, 0.05), quantile(&values, 0.95)]
     };
     let index = |(factor, [first, total]): (usize, &[f64; 2])| SobolIndex {
         first: *first,

@@ -1,5 +1,6 @@
 //! Mean, spread and governing value of one quantity over the records of a suite.
 
+use jostle::linear::quantile;
 use jostle_motion::GoverningStatistic;
 use serde::Serialize;
 
@@ -60,13 +61,6 @@ impl QuantityStatistics {
             values,
         })
     }
-}
-
-/// Quantile of ordered values, linear between them (R. J. Hyndman, Y. Fan, 1996, Am. Stat. 50, 361–365, type 7).
-fn quantile(ordered: &[f64], share: f64) -> f64 {
-    let place = share * (ordered.len() - 1) as f64;
-    let (below, above) = (place.floor() as usize, place.ceil() as usize);
-    ordered[below] + (place - place.floor()) * (ordered[above] - ordered[below])
 }
 
 #[cfg(test)]

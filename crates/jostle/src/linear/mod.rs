@@ -5,12 +5,14 @@ pub(crate) mod counting_sort;
 pub(crate) mod diagonal_runs;
 pub(crate) mod envelope;
 pub(crate) mod full_matrix;
+mod quantile;
 mod row;
 mod sorting;
 pub(crate) mod sparse_cholesky;
 mod sparse_symmetric;
 mod step_matrix;
 
+pub use quantile::quantile;
 pub use row::Row;
 pub use sorting::{sort_by, sort_by_key};
 pub use sparse_symmetric::SparseSymmetric;
