@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::curves::{Fragility, STATES};
 use super::run::Case;
 use crate::sampling::normal_cdf;
+use crate::statistics::FitError;
 
 /// Dispersions that are searched \[–\].
 const DISPERSIONS: [f64; 2] = [0.02, 3.0];
@@ -64,6 +65,12 @@ pub(super) fn shared(
 
 /// Greatest likelihood over the dispersion, and for each dispersion over every median.
 fn fit(demands: &[(f64, f64)], states: &[Fragility]) -> Result<Shared, String> {
+    if states
+        .iter()
+        .all(|state| is_a_step(demands, state.threshold))
+    {
+        return Err(FitError::NoMaximum.to_string());
+    }
     let low = demands
         .iter()
         .map(|demand| demand.0)
@@ -111,6 +118,20 @@ fn fit(demands: &[(f64, f64)], states: &[Fragility]) -> Result<Shared, String> {
     })
 }
 
+/// Whether curves with ever smaller dispersion fit a state as well as its observed shares do: it occurs nowhere below one intensity and
+/// everywhere above it.
+fn is_a_step(demands: &[(f64, f64)], threshold: f64) -> bool {
+    let of = |reached: bool| {
+        let some = demands
+            .iter()
+            .filter(move |demand| (demand.1 >= threshold) == reached);
+        some.map(|demand| demand.0)
+    };
+    let first_with = of(true).fold(f64::INFINITY, f64::min);
+    let last_without = of(false).fold(f64::NEG_INFINITY, f64::max);
+    last_without <= first_with
+}
+
 /// Where a function with one peak is greatest, by the golden section.
 fn greatest([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -141,13 +162,24 @@ mod tests {
             gap: None,
             state: 0,
             threshold,
-            fit: Err(crate::statistics::FitError::NoMaximum),
+            fit: Err(FitError::NoMaximum),
             band: None,
             counts: Vec::new(),
             misfit: None,
             cases: 0,
             reached: 0,
         }
+    }
+
+    /// Shares of a half at one intensity, none below and all above: every small dispersion fits them.
+    #[test]
+    fn steps_have_no_dispersion() {
+        let drifts = |low: f64, high: f64| [(0.0, 0.1), (1.0, low), (1.0, high), (2.0, 9.0)];
+        let states = [1.0, 2.0].map(state);
+        assert!(fit(&drifts(0.1, 9.0), &states).is_err());
+        // A demand at a lower intensity above one at a higher intensity is scatter.
+        let scattered = [(0.0, 0.1), (1.0, 3.0), (2.0, 0.1), (3.0, 9.0)];
+        assert!(fit(&scattered, &states).is_ok());
     }
 
     #[test]
