@@ -76,7 +76,7 @@ pub fn both_ways(
             ControlFlow::Continue(())
         }
     });
-    match &outcome.end {
+    match outcome.end_of_all() {
         RunEnd::Completed => {}
         RunEnd::Stopped => return Ok(None),
         RunEnd::Failed(error) => return Err(error.to_string()),

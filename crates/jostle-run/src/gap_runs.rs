@@ -133,7 +133,7 @@ impl<'a> GapRuns<'a> {
             Some(shapes) => modal::simulate(&system, motion, &plan, settings, &shapes, observer),
             None => simulate(&system, motion, &plan, settings, observer),
         };
-        match &outcome.end {
+        match outcome.end_of_all() {
             RunEnd::Completed => {}
             RunEnd::Stopped => return Err(GapError::Stopped),
             RunEnd::Failed(error) => return Err(GapError::Run(error.to_string())),

@@ -177,7 +177,7 @@ impl GradientRequest {
                 ControlFlow::Continue(())
             }
         });
-        match &outcome.end {
+        match outcome.end_of_all() {
             RunEnd::Completed => {}
             RunEnd::Stopped => return Trial::Stopped,
             RunEnd::Failed(error) => return Trial::Failed(RunError::Analysis(error.to_string())),

@@ -45,7 +45,7 @@ impl Prepared {
     ) -> Result<Summary, String> {
         let mut run = |settings: Settings| {
             let outcome = self.step(settings, |progress| observer(stage, progress));
-            match &outcome.end {
+            match outcome.end_of_all() {
                 RunEnd::Completed => Ok(outcome),
                 RunEnd::Stopped => Err("they were interrupted".to_owned()),
                 RunEnd::Failed(error) => Err(format!("{words}: {error}")),

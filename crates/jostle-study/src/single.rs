@@ -61,7 +61,7 @@ pub(crate) fn add_run_without_contact(
         ran.run_without_contact(settings, &mut observer(stop));
     }
     let without = ran.without_contact.as_ref();
-    without.is_none_or(|run| run.end != RunEnd::Stopped)
+    without.is_none_or(|run| *run.end_of_all() != RunEnd::Stopped)
 }
 
 /// Runs a case without contact as well, for its report, and writes its files. `false` when it was stopped.

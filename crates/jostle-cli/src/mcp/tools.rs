@@ -123,7 +123,7 @@ fn run(files: &Files, arguments: Value, cancelled: Cancelled<'_>) -> Result<Stri
     let mut ran = prepared.run(settings, &mut observer);
     ran.run_without_contact(settings, &mut observer);
     drop(observer);
-    match &ran.outcome.end {
+    match ran.outcome.end_of_all() {
         RunEnd::Completed => {}
         RunEnd::Stopped => return Err(Failure::Stopped),
         RunEnd::Failed(error) => return Err(Failure::Analysis(error.to_string())),

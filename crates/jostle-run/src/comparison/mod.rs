@@ -262,7 +262,7 @@ impl PreparedComparison<'_> {
         let outcome = self.prepared.step(settings, |progress| {
             observer(crate::Stage::Pounding, progress)
         });
-        match &outcome.end {
+        match outcome.end_of_all() {
             RunEnd::Completed => {}
             RunEnd::Stopped => return Ok(None),
             RunEnd::Failed(error) => return Err(RunError::Analysis(error.to_string())),

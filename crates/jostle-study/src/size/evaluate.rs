@@ -141,7 +141,7 @@ impl SizeProblem {
                 std::ops::ControlFlow::Continue(())
             }
         });
-        let (status, reason) = match &outcome.end {
+        let (status, reason) = match outcome.end_of_all() {
             RunEnd::Stopped => return Ok(None),
             RunEnd::Completed => (Status::Completed, String::new()),
             RunEnd::Failed(error @ StepError::Collapse { .. }) => {

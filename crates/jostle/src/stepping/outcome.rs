@@ -146,6 +146,21 @@ pub struct Outcome {
     pub(crate) refined: Refined,
     /// Reason for the end.
     pub end: RunEnd,
+    /// Whether a repetition with shorter steps, or the one that tells the error, was stopped: this is the run before it.
+    pub interrupted: bool,
+}
+
+impl Outcome {
+    /// Reason for the end of the run with its repetitions: stopped as well if one of them was. Results that must not depend on when
+    /// a run was stopped ask for this one.
+    #[must_use]
+    pub fn end_of_all(&self) -> &RunEnd {
+        if self.interrupted {
+            &RunEnd::Stopped
+        } else {
+            &self.end
+        }
+    }
 }
 
 /// An a-posteriori estimate of the errors of reported peaks.

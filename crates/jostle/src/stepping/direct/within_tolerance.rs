@@ -167,6 +167,7 @@ pub(in crate::stepping) fn within_tolerance(
         if outcome.end != RunEnd::Completed {
             // If a refinement is stopped or fails, the previous run is kept.
             if refinements > 0 && before.end == RunEnd::Completed {
+                before.interrupted = outcome.end == RunEnd::Stopped;
                 return before;
             }
             // Springs and contacts that long steps cannot resolve may follow shorter ones.
@@ -189,6 +190,7 @@ pub(in crate::stepping) fn within_tolerance(
         if known.is_none() && in_doubt {
             let coarser = coarse.refined(coarsened, motion);
             let coarsest = run(&coarser);
+            outcome.interrupted = coarsest.end == RunEnd::Stopped;
             further_runs += 1;
             outcome.work.repeated_runs = further_runs;
             if coarsest.end == RunEnd::Completed && coarser.step > coarse.step {
@@ -253,6 +255,7 @@ fn with_error(
     let other = run(&other_plan);
     if other.end == RunEnd::Stopped {
         // The run that was asked for is complete; only its error is not known.
+        outcome.interrupted = true;
         return outcome;
     }
     outcome.work.repeated_runs = 1;

@@ -64,7 +64,8 @@ fn stopping_a_refinement_keeps_the_run_before_it() {
             ControlFlow::Continue(())
         }
     });
-    assert_eq!((begun, outcome.end), (3, RunEnd::Completed));
+    assert_eq!((begun, &outcome.end), (3, &RunEnd::Completed));
+    assert_eq!(*outcome.end_of_all(), RunEnd::Stopped);
     let accuracy = outcome.accuracy.expect("an estimate");
     assert!(accuracy.residual > accuracy.tolerance, "{accuracy:?}");
 }
