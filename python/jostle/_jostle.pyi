@@ -158,6 +158,7 @@ def run(
     force: bool = False,
     observer: Callable[[float, float], object] | None = None,
     sensitivity: bool = False,
+    apart: bool = False,
 ) -> Run: ...
 def run_suite(
     model: Model,

@@ -100,7 +100,7 @@ def run(
     if interval is not None and interval < 0.0:
         raise ValueError(f"record_interval: must not be negative, found {interval} s")
     core = _walk(
-        model, bool(pounding), interval, progress, bool(force), "pounding  ", bool(sensitivity)
+        model, bool(pounding), interval, progress, bool(force), "pounding  ", bool(sensitivity), bool(without_contact)
     )
     result = Result._of(model, core, interval)
     if core.warning is not None:
@@ -127,11 +127,12 @@ def _walk(
     force: bool,
     label: str,
     sensitivity: bool = False,
+    apart: bool = False,
 ) -> _jostle.Run:
     line = ProgressLine(label) if progress is True else contextlib.nullcontext()
     with line as shown:
         observer = shown or (progress if callable(progress) else None)
-        return _jostle.run(model._core, pounding, interval, force, observer, sensitivity)
+        return _jostle.run(model._core, pounding, interval, force, observer, sensitivity, apart)
 
 
 def _interrupted(result: Result) -> None:

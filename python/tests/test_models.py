@@ -536,6 +536,17 @@ def test_tall_frames_bounds_of_bearings_and_filtered_accelerations() -> None:
     assert [stroke["nominal"], stroke["lower"], stroke["upper"]] == pytest.approx(strokes, rel=1e-9)
     assert stroke["envelope"] == max(strokes)
 
+    # With the run without contact, gaps have the width needed at the bounds as well, as on the command line.
+    isolated = Shear(
+        "b", mass=[4e4], stiffness=[9e7], storey_height=3, isolation={**bearings, "bounds": {"lower": 0.8, "upper": 1.25}}
+    )
+    beside = Shear("c", mass=[4e4], stiffness=[9e7], storey_height=3)
+    pair = Model([isolated, beside], gap="100 mm", motion=jostle.Motion.el_centro().lasting("6 s"))
+    summary = jostle.run(pair, without_contact=True).summary
+    needed = summary["isolation_bounds"]["gaps"][0]["closing_without_contact_m"]
+    assert needed["nominal"] == summary["gaps"][0]["closing_without_contact_m"]
+    assert needed["envelope"] == max(needed["nominal"], needed["lower"], needed["upper"]) > needed["nominal"]
+
     # Nothing strikes: the filter below 25 Hz leaves the peak.
     for building in found.summary["buildings"]:
         filtered, raw = building["filtered_acceleration_peak_m_s2"], building["total_acceleration_peak_m_s2"]

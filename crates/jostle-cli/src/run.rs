@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use jostle::method::MethodSurvey;
 use jostle::results::gradient::Gradient;
-use jostle::{RunEnd, Solver};
+use jostle::{Outcome, RunEnd, Solver};
 use jostle_io::{FloorSpectraRequest, ModelTree, TreeValue};
 use jostle_run::{
     Content, EXAMPLE, FileKind, FolderClaim, GradientRequest, Opened, Pace, Prepared, Ran, Results,
@@ -155,7 +155,7 @@ fn analyse(
     if args.sensitivity {
         ran.run_other_contacts(&mut observer);
     }
-    ran.run_isolation_bounds(&mut observer);
+    ran.run_isolation_bounds(ran.without_contact.is_some(), &mut observer);
     if ran.has_variants() {
         summary = ran.summary();
     }
@@ -198,7 +198,7 @@ fn analyse(
             report.as_deref(),
         ))?;
     }
-    ending(&ran.outcome.end, out)?;
+    ending(&ran.outcome, out)?;
     let failed = ran.contact_sensitivity.as_ref().is_some_and(Result::is_err)
         || ran.isolation_bounds.as_ref().is_some_and(Result::is_err);
     if stop.load(Ordering::Relaxed) && failed {
@@ -322,11 +322,18 @@ fn result(out: &Path, no_report: bool) -> PathBuf {
 }
 
 /// Whether the run counts as done.
-fn ending(end: &RunEnd, out: Option<&Path>) -> Result<(), Failure> {
+fn ending(outcome: &Outcome, out: Option<&Path>) -> Result<(), Failure> {
     let kept = out.map_or_else(String::new, |out| {
         format!("; results up to then are in {}", out.display())
     });
-    match end {
+    if outcome.interrupted {
+        let kept = out.map_or_else(String::new, |out| format!(" and is in {}", out.display()));
+        terminal::remark(&format!(
+            "stopped while the run was repeated with other steps to meet the tolerance; the run before is complete{kept}"
+        ));
+        return Err(Failure::Stopped);
+    }
+    match &outcome.end {
         RunEnd::Completed => Ok(()),
         RunEnd::Stopped => {
             terminal::remark(&format!("stopped{kept}"));

@@ -38,9 +38,14 @@ pub(crate) struct Run {
     interrupted: bool,
 }
 
-/// Runs a model from rest. `observer` is called with the current and the final time, a few times per second.
+/// Runs a model from rest. `observer` is called with the current and the final time, a few times per second. `apart`: a run without
+/// contact follows, so that bounds of bearings are run without it as well.
 #[pyfunction]
-#[pyo3(signature = (model, pounding=true, record_interval=None, force=false, observer=None, sensitivity=false))]
+#[pyo3(signature = (model, pounding=true, record_interval=None, force=false, observer=None, sensitivity=false, apart=false))]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "they are those of the Python function"
+)]
 pub(crate) fn run(
     py: Python<'_>,
     model: &Model,
@@ -49,6 +54,7 @@ pub(crate) fn run(
     force: bool,
     observer: Option<Py<PyAny>>,
     sensitivity: bool,
+    apart: bool,
 ) -> PyResult<Run> {
     let prepared = py.detach(|| model.prepare(force))?;
     let settings = Settings {
@@ -90,7 +96,7 @@ pub(crate) fn run(
             ran.run_other_contacts(&mut look_up);
         }
         if pounding {
-            ran.run_isolation_bounds(&mut look_up);
+            ran.run_isolation_bounds(apart, &mut look_up);
         }
         ran
     });

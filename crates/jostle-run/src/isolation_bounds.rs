@@ -11,15 +11,15 @@ use crate::run::Ran;
 /// The bounds, as messages call them.
 const BOUNDS: [&str; 2] = ["at the lower bounds", "at the upper bounds"];
 
+/// Runs at the lower and at the upper bound; `None` where the bearings are then as they were.
+pub type RunsAtBounds = [Option<Summary>; 2];
+
 impl Ran {
-    /// Runs the model at both bounds of its bearings, if it states any and the run came to its end.
-    pub fn run_isolation_bounds(&mut self, observer: &mut Observer<'_>) {
+    /// Runs the model at both bounds of its bearings, if it states any and the run came to its end. `apart`: without contact as well.
+    pub fn run_isolation_bounds(&mut self, apart: bool, observer: &mut Observer<'_>) {
         let model = &self.prepared.input.model;
         if has_bounds(model) && self.outcome.end == RunEnd::Completed {
-            let without = self.without_contact.as_ref();
-            let summary = self.prepared.summary(&self.outcome, without, self.wall);
-            let apart = without.is_some();
-            self.isolation_bounds = Some(at_bounds(&self.prepared, &summary, apart, observer));
+            self.isolation_bounds = Some(at_bounds(&self.prepared, apart, observer));
         }
     }
 }
@@ -35,20 +35,18 @@ fn has_bounds(model: &Model) -> bool {
 
 fn at_bounds(
     prepared: &Prepared,
-    nominal: &Summary,
     apart: bool,
     observer: &mut Observer<'_>,
-) -> Result<IsolationBounds, String> {
+) -> Result<RunsAtBounds, String> {
     let mut one = |upper: bool| {
         let words = BOUNDS[usize::from(upper)];
         let model = scaled(&prepared.input.model, upper);
-        match prepared.with_model(model, words, System::assemble)? {
-            Some(other) => other.run_variant(words, apart, Stage::IsolationBounds, observer),
-            None => Ok(nominal.clone()),
-        }
+        let other = prepared.with_model(model, words, System::assemble)?;
+        let run =
+            |other: Prepared| other.run_variant(words, apart, Stage::IsolationBounds, observer);
+        other.map(run).transpose()
     };
-    let (lower, upper) = (one(false)?, one(true)?);
-    Ok(compare([nominal, &lower, &upper]))
+    Ok([one(false)?, one(true)?])
 }
 
 /// The model with all bearings at one bound.
@@ -67,8 +65,10 @@ fn scaled(model: &Model, upper: bool) -> Model {
     model
 }
 
-/// Puts the runs beside each other: nominal, lower, upper.
-fn compare(runs: [&Summary; 3]) -> IsolationBounds {
+/// Puts the run beside those at the bounds.
+pub(crate) fn compare(nominal: &Summary, bounds: &RunsAtBounds) -> IsolationBounds {
+    let [lower, upper] = bounds.each_ref().map(|run| run.as_ref().unwrap_or(nominal));
+    let runs = [nominal, lower, upper];
     let building = |index: usize| {
         let buildings = runs.map(|run| &run.buildings[index]);
         let isolated = |of: fn(&BuildingSummary) -> f64| {

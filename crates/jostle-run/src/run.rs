@@ -4,10 +4,10 @@ use std::time::Instant;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
-use jostle::results::isolation_bounds::IsolationBounds;
 use jostle::{Outcome, Pounding, RunEnd, Settings, StepError, Summary};
 
 use crate::floor_spectra::{RunFloorSpectra, combine, filter_floors};
+use crate::isolation_bounds::{RunsAtBounds, compare};
 use crate::observer::{Observer, Stage};
 use crate::prepared::{Prepared, without_contact};
 use crate::results::Results;
@@ -27,7 +27,7 @@ pub struct Ran {
     /// Derivatives of its peaks, if they were asked for.
     pub gradients: Vec<Gradient>,
     /// The same at the bounds of bearings, or why not, if the model states any.
-    pub isolation_bounds: Option<Result<IsolationBounds, String>>,
+    pub isolation_bounds: Option<Result<RunsAtBounds, String>>,
     /// Spectra of floors, or why not, if they were asked for.
     pub floor_spectra: Option<Result<RunFloorSpectra, String>>,
     /// Those of the run without contact.
@@ -114,7 +114,7 @@ impl Ran {
         }
         summary.gradients.clone_from(&self.gradients);
         match &self.isolation_bounds {
-            Some(Ok(found)) => summary.isolation_bounds = Some(found.clone()),
+            Some(Ok(found)) => summary.isolation_bounds = Some(compare(summary, found)),
             Some(Err(problem)) => summary.warnings.push(format!(
                 "there is no envelope over the bounds of bearings: {problem}"
             )),

@@ -55,7 +55,7 @@ fn run(text: &str) -> Summary {
     let mut observer = |_, _| ControlFlow::Continue(());
     let mut ran = prepared.run(settings, &mut observer);
     ran.run_without_contact(settings, &mut observer);
-    ran.run_isolation_bounds(&mut observer);
+    ran.run_isolation_bounds(true, &mut observer);
     ran.summary()
 }
 

@@ -241,12 +241,12 @@ impl Work<'_> {
         if self.options.sensitivity {
             ran.run_other_contacts(&mut observer);
         }
-        ran.run_isolation_bounds(&mut observer);
-        let ended = ran.outcome.end == RunEnd::Stopped
+        ran.run_isolation_bounds(ran.without_contact.is_some(), &mut observer);
+        let ended = *ran.outcome.end_of_all() == RunEnd::Stopped
             || ran
                 .without_contact
                 .as_ref()
-                .is_some_and(|run| run.end == RunEnd::Stopped)
+                .is_some_and(|run| *run.end_of_all() == RunEnd::Stopped)
             || (self.stop)()
             || self.halt.load(Ordering::Relaxed);
         if ended {
