@@ -12,10 +12,12 @@ use crate::model::{
     SpaceSection,
 };
 
-/// A space frame over the motions of the mat under it, if there is one, and of its floors: u_x, u_y and θ of each at its centre of mass,
-/// from the ground up.
+/// A space frame over the motions of the mat or the base under it, if there is one, and of its floors: u_x, u_y and θ of each at its
+/// centre of mass, from the ground up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CondensedFrame {
+    /// The nodes of these motions.
+    pub nodes: Vec<usize>,
     /// Its columns and beams, in the order of the model.
     pub members: Vec<CondensedMember>,
     /// Displacements of every joint over those of the floors.
@@ -596,6 +598,7 @@ pub(super) fn condense(
     storey_heights: &[f64],
     mat: Option<&LumpedFloor>,
     lumped: &[LumpedFloor],
+    nodes: &[usize],
 ) -> Option<Condensed> {
     let assembly = Assembly::new(frame, storey_heights, mat, lumped);
     let springs: Vec<SpringMember> = frame
@@ -706,6 +709,7 @@ pub(super) fn condense(
         elongations.push(elongation);
     }
     let frame = CondensedFrame {
+        nodes: nodes.to_vec(),
         joints: joint_rows(&assembly, &row),
         members: carried_by_columns(&assembly, members, &elongations),
     };

@@ -16,7 +16,7 @@ impl MemberForces {
     /// Adds the members of a space frame: their forces follow from the motions of the mat and of the floors.
     pub(super) fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
         let floors = &building.discretization.floors;
-        let dofs = motions_of_floors(building);
+        let dofs = motions_of(building, frame);
         let nothing = self.index_of(LinearForm::default());
         for member in &frame.members {
             // Every row occurs once.
@@ -232,12 +232,10 @@ impl AssembledBuilding {
     }
 }
 
-/// Degrees of freedom of the mat, if there is one, and of the floors: along, across and turning of each.
-fn motions_of_floors(building: &AssembledBuilding) -> Vec<Option<usize>> {
-    let discretization = &building.discretization;
-    let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
-    let mat = discretization.mat.map(|mat| mat.node);
-    let places = mat.iter().chain(&discretization.floors).flat_map(of_floor);
+/// Degrees of freedom of the motions of a frame: along, across and turning of each of its nodes.
+fn motions_of(building: &AssembledBuilding, frame: &CondensedFrame) -> Vec<Option<usize>> {
+    let places = frame.nodes.iter();
+    let places = places.flat_map(|node| [X, Y, THETA].map(|component| (*node, component)));
     places.map(|place| building.equations.dof(place)).collect()
 }
 
@@ -259,7 +257,7 @@ fn of_condensed_wall(
     wall: &SpaceWall,
     rises: [Option<usize>; 2],
 ) -> Option<[LinearForm; 3]> {
-    let dofs = motions_of_floors(building);
+    let dofs = motions_of(building, frame);
     let member = frame.members.iter().find(|member| member.place == foot)?;
     let plane = match wall.along {
         PlanAxis::X => &member.bending,

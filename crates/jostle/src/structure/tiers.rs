@@ -60,6 +60,8 @@ pub(super) fn discretize_tiers(
     // All that moves, from the ground up.
     let first = usize::from(mat.is_some());
     let moving: Vec<_> = mat.iter().chain(&lumped).cloned().collect();
+    let below = mat.iter().map(|_| foot);
+    let nodes: Vec<usize> = below.chain(floors.iter().copied()).collect();
     let mut matrix = PlanMatrix::new(3 * moving.len());
     for index in 0..floors.len() {
         if let Some(storey) = tiers.storeys.get(index) {
@@ -79,7 +81,7 @@ pub(super) fn discretize_tiers(
     let follows = |frame: &&SpaceFrame| !frame.may_yield() && !carries && !has_points;
     let following = tiers.space_frame.as_ref().filter(follows);
     let condensed = following.and_then(|frame| {
-        let condense = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
+        let condense = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped, &nodes)?;
         matrix.add_triangle(&condense.stiffness, Part::Elastic);
         Some((Arc::new(condense.frame), condense.elongations))
     });
@@ -88,11 +90,6 @@ pub(super) fn discretize_tiers(
         matrix.add_above(&given.stiffness, mat.as_ref(), &lumped, Part::Elastic);
         matrix.add_above(&given.damping, mat.as_ref(), &lumped, Part::Dashpot);
     }
-    let nodes: Vec<usize> = mat
-        .iter()
-        .map(|_| foot)
-        .chain(floors.iter().copied())
-        .collect();
     stick_model.elements = matrix.elements(ground, &nodes);
     if let (None, Some(footing)) = (&base.isolation, &mat) {
         stick_model.stand_on_footing(base, footing, foot);

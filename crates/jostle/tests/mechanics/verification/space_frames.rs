@@ -165,16 +165,22 @@ fn single(tiers: Tiers) -> System {
 /// Displacements of the floors, u_x, u_y, θ each, under forces on them.
 fn statics(system: &BuildingSystem, pushes: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let n = system.floors.len();
+    let answer = pushed(system, pushes);
+    (0..n)
+        .map(|floor| [0, 1, 2].map(|direction| answer[system.tracks[direction * n + floor].dof]))
+        .collect()
+}
+
+/// All displacements under forces on the floors.
+fn pushed(system: &BuildingSystem, pushes: &[[f64; 3]]) -> Vec<f64> {
+    let n = system.floors.len();
     let mut load = vec![0.0; system.equations.len()];
     for (floor, push) in pushes.iter().enumerate() {
         for (direction, force) in push.iter().enumerate() {
             load[system.tracks[direction * n + floor].dof] = *force;
         }
     }
-    let answer = solve_once::<RiccatiSweep>(system, &StepMatrix::STATIC, &load).expect("it stands");
-    (0..n)
-        .map(|floor| [0, 1, 2].map(|direction| answer[system.tracks[direction * n + floor].dof]))
-        .collect()
+    solve_once::<RiccatiSweep>(system, &StepMatrix::STATIC, &load).expect("it stands")
 }
 
 /// Forces at both ends of every member: axial, shear and moment, then shear and moment across and torque.
@@ -187,8 +193,13 @@ fn end_forces(system: &System, floors: &[[f64; 3]]) -> Vec<(SpacePlace, [[f64; 6
             state.displacement[building.tracks[direction * n + floor].dof] = *value;
         }
     }
+    end_forces_of(building, &state)
+}
+
+/// The same in any state.
+fn end_forces_of(building: &BuildingSystem, state: &State) -> Vec<(SpacePlace, [[f64; 6]; 2])> {
     let mut forces = vec![0.0; building.members.forms.len()];
-    building.member_forces(&state, &[], 0.0, |form, value| forces[form] = value);
+    building.member_forces(state, &[], 0.0, |form, value| forces[form] = value);
     let members = building.members.members.iter();
     members
         .map(|member| {
@@ -429,15 +440,42 @@ fn check_joints(members: &[(SpacePlace, [[f64; 6]; 2])], what: &str) -> usize {
     joints
 }
 
-/// Columns carry what pushes the floors: shears and torques storey by storey, and overturning moments by axial forces and moments.
+/// Columns carry what pushes the floors: shears and torques storey by storey, and overturning moments by axial forces and moments,
+/// whatever their base does.
 #[test]
 fn columns_of_a_storey_carry_what_is_above() {
-    for axial in [true, false] {
+    let sways = Base {
+        horizontal_stiffness: Some(3e7),
+        mass: 2e4,
+        ..Base::default()
+    };
+    let turns = Base {
+        torsional_stiffness: Some(4e8),
+        ..Base::default()
+    };
+    let rocks = Base {
+        rotational_stiffness: Some(5e9),
+        ..sways
+    };
+    let both = Base {
+        torsional_stiffness: Some(4e8),
+        ..sways
+    };
+    let bases = [Base::default(), sways, turns, both, rocks];
+    for (axial, base) in [true, false]
+        .into_iter()
+        .flat_map(|axial| bases.iter().map(move |base| (axial, base)))
+    {
         let tiers = without_symmetry(Flexible { axial, shear: true });
-        let system = single(tiers.clone());
+        let on_base = Building {
+            base: *base,
+            ..building("A", tiers.clone(), FIVE_PERCENT)
+        };
+        let system = assembled(&model(vec![on_base], vec![]));
         let frame = tiers.space_frame.as_ref().expect("a space frame");
-        let moved = statics(&system.buildings[0], &PUSHES);
-        let members = end_forces(&system, &moved);
+        let mut state = State::at_rest(&system, 0.0);
+        state.displacement = pushed(&system.buildings[0], &PUSHES);
+        let members = end_forces_of(&system.buildings[0], &state);
         let tops = [4.0, 7.2, 10.4];
         for storey in 0..3 {
             let base = tops[storey] - tiers.storey_heights[storey];
