@@ -10,7 +10,7 @@ use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
 use jostle_io::shown::{ACCELERATION, FORCE, LENGTH, chosen_units, in_units};
 use jostle_io::{Files, Format, InputError, ModelTree, TreeValue, Units};
-use jostle_run::{CaseCache, CaseError, Prepared, Results, STORAGE};
+use jostle_run::{CaseCache, CaseError, Prepared, Results, RunsAtBounds, STORAGE, add_bounds};
 use serde::Serialize;
 
 use crate::message::{Fault, Run, fault, faults};
@@ -89,7 +89,24 @@ pub(crate) struct Solved {
     prepared: Prepared,
     outcome: Outcome,
     without: Option<Arc<Outcome>>,
+    bounds: Option<Result<RunsAtBounds, String>>,
     summary: Summary,
+}
+
+/// The numbers of a run, with those at the bounds of its bearings.
+fn numbers_of(
+    prepared: &Prepared,
+    outcome: &Outcome,
+    without: Option<&Outcome>,
+    bounds: Option<&Result<RunsAtBounds, String>>,
+    wall: f64,
+) -> Summary {
+    let mut summary = prepared.summary(outcome, without, wall);
+    if let Some(bounds) = bounds {
+        add_bounds(&mut summary, bounds);
+        prepared.judge(&mut summary);
+    }
+    summary
 }
 
 /// What a frame says beside its data.
@@ -268,10 +285,12 @@ impl Engine {
             kept.iter().find(same).map(|run| Arc::clone(&run.outcome))
         };
         let wanted = compares && known.is_none();
-        let (outcome, computed) = together(
-            || prepared.step(settings, watch),
-            || wanted.then(|| prepared.step(apart, watch)),
-        );
+        let step = |settings| {
+            let mut outcome = prepared.step(settings, watch);
+            prepared.finish_histories(&mut outcome);
+            outcome
+        };
+        let (outcome, computed) = together(|| step(settings), || wanted.then(|| step(apart)));
         let without = known.or(computed.map(Arc::new));
         let stopped = |outcome: &Outcome| *outcome.end_of_all() == RunEnd::Stopped;
         if stopped(&outcome) || without.as_ref().is_some_and(|run| stopped(run)) {
@@ -290,11 +309,22 @@ impl Engine {
             });
         }
         let wall = clock.seconds();
-        let summary = prepared.summary(&outcome, without.as_deref(), wall);
+        let completed = outcome.end == RunEnd::Completed;
+        let mut watched = |_, progress| watch(progress);
+        let bounds = completed.then(|| prepared.run_at_bounds(compares, &mut watched));
+        let bounds = bounds.flatten();
+        let summary = numbers_of(
+            &prepared,
+            &outcome,
+            without.as_deref(),
+            bounds.as_ref(),
+            wall,
+        );
         Ok(Solved {
             prepared,
             outcome,
             without,
+            bounds,
             summary,
         })
     }
@@ -322,7 +352,8 @@ impl Engine {
         let mut solved = self.solve(self.prepare(tree, record)?, watch)?;
         let (prepared, wall) = (&solved.prepared, solved.summary.work.wall_s);
         prepared.find_sensitivity(&mut solved.outcome, watch);
-        solved.summary = prepared.summary(&solved.outcome, solved.without.as_deref(), wall);
+        let (without, bounds) = (solved.without.as_deref(), solved.bounds.as_ref());
+        solved.summary = numbers_of(prepared, &solved.outcome, without, bounds, wall);
         let report = self.in_its_units(|| solved.results().report());
         report.ok_or(Trouble::Stopped)
     }
@@ -344,10 +375,8 @@ fn written(id: u64, tree: &ModelTree, solved: &Solved) -> Result<Vec<u8>, Troubl
         numbers: numbers(summary),
         notes: &summary.notes,
         accuracy: summary.promise.in_words(),
-        needed: summary
-            .gaps
-            .iter()
-            .map(|gap| gap.closing_without_contact_m)
+        needed: (0..summary.gaps.len())
+            .map(|gap| summary.gap_needed_m(gap))
             .collect(),
     };
     let head = serde_json::to_string(&head).unwrap_or_default();
@@ -447,7 +476,7 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     let mut list = Vec::new();
     let mut add = |name: String, unit, value: f64| list.push(Number { name, unit, value });
     let several = summary.gaps.len() > 1;
-    for gap in &summary.gaps {
+    for (index, gap) in summary.gaps.iter().enumerate() {
         let pair = if several {
             format!(" {} ↔ {}", gap.between[0], gap.between[1])
         } else {
@@ -467,12 +496,8 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         if let Some(first) = gap.first_impact_s {
             add(message::first_impact(&pair), "s", first);
         }
-        if let Some(closing) = gap.closing_without_contact_m {
-            add(
-                message::gap_needed(&pair),
-                LENGTH.name(),
-                LENGTH.of(closing),
-            );
+        if let Some(needed) = summary.gap_needed_m(index) {
+            add(message::gap_needed(&pair), LENGTH.name(), LENGTH.of(needed));
         }
     }
     for building in &summary.buildings {

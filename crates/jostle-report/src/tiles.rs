@@ -151,12 +151,8 @@ fn needed(summary: &Summary, gap: &GapSummary) -> Option<f64> {
 
 /// The greatest over nominal properties and bounds of bearings \[m\].
 fn bounded(summary: &Summary, gap: &GapSummary) -> Option<f64> {
-    let index = summary
-        .gaps
-        .iter()
-        .position(|other| std::ptr::eq(other, gap))?;
-    let bounds = summary.isolation_bounds.as_ref()?.gaps.get(index)?;
-    Some(bounds.closing_without_contact_m.as_ref()?.envelope)
+    let gaps = &mut summary.gaps.iter();
+    summary.gap_needed_at_bounds_m(gaps.position(|other| std::ptr::eq(other, gap))?)
 }
 
 /// How far a gap closed.

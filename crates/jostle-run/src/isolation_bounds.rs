@@ -14,12 +14,22 @@ const BOUNDS: [&str; 2] = ["at the lower bounds", "at the upper bounds"];
 /// Runs at the lower and at the upper bound; `None` where the bearings are then as they were.
 pub type RunsAtBounds = [Option<Summary>; 2];
 
+impl Prepared {
+    /// Runs the model at both bounds of its bearings, or says why that failed; `None` if it states none. `apart`: without contact as well.
+    pub fn run_at_bounds(
+        &self,
+        apart: bool,
+        observer: &mut Observer<'_>,
+    ) -> Option<Result<RunsAtBounds, String>> {
+        has_bounds(&self.input.model).then(|| at_bounds(self, apart, observer))
+    }
+}
+
 impl Ran {
     /// Runs the model at both bounds of its bearings, if it states any and the run came to its end. `apart`: without contact as well.
     pub fn run_isolation_bounds(&mut self, apart: bool, observer: &mut Observer<'_>) {
-        let model = &self.prepared.input.model;
-        if has_bounds(model) && self.outcome.end == RunEnd::Completed {
-            self.isolation_bounds = Some(at_bounds(&self.prepared, apart, observer));
+        if self.outcome.end == RunEnd::Completed {
+            self.isolation_bounds = self.prepared.run_at_bounds(apart, observer);
         }
     }
 }
@@ -65,8 +75,18 @@ fn scaled(model: &Model, upper: bool) -> Model {
     model
 }
 
+/// Adds the runs at the bounds to the numbers of the run, or why they are missing.
+pub fn add_bounds(summary: &mut Summary, found: &Result<RunsAtBounds, String>) {
+    match found {
+        Ok(runs) => summary.isolation_bounds = Some(compare(summary, runs)),
+        Err(problem) => summary.warnings.push(format!(
+            "there is no envelope over the bounds of bearings: {problem}"
+        )),
+    }
+}
+
 /// Puts the run beside those at the bounds.
-pub(crate) fn compare(nominal: &Summary, bounds: &RunsAtBounds) -> IsolationBounds {
+fn compare(nominal: &Summary, bounds: &RunsAtBounds) -> IsolationBounds {
     let [lower, upper] = bounds.each_ref().map(|run| run.as_ref().unwrap_or(nominal));
     let runs = [nominal, lower, upper];
     let building = |index: usize| {

@@ -83,7 +83,7 @@ pub use gap_page::{
 pub use gap_runs::{GapError, GapPoint};
 pub use gradients::GradientRequest;
 pub use history_file::STORAGE;
-pub use isolation_bounds::RunsAtBounds;
+pub use isolation_bounds::{RunsAtBounds, add_bounds};
 pub use method::{methods_text, survey_methods};
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
 pub use motions::{

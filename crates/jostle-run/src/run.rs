@@ -7,7 +7,7 @@ use jostle::results::gradient::Gradient;
 use jostle::{Outcome, Pounding, RunEnd, Settings, StepError, Summary};
 
 use crate::floor_spectra::{RunFloorSpectra, combine, filter_floors};
-use crate::isolation_bounds::{RunsAtBounds, compare};
+use crate::isolation_bounds::{RunsAtBounds, add_bounds};
 use crate::observer::{Observer, Stage};
 use crate::prepared::{Prepared, without_contact};
 use crate::results::Results;
@@ -67,7 +67,10 @@ impl Prepared {
 
     /// What follows from the histories of a run, which has failed if they cannot be read back: peaks of filtered accelerations, and
     /// spectra of floors.
-    fn finish_histories(&self, outcome: &mut Outcome) -> Option<Result<RunFloorSpectra, String>> {
+    pub fn finish_histories(
+        &self,
+        outcome: &mut Outcome,
+    ) -> Option<Result<RunFloorSpectra, String>> {
         filter_floors(self.input.floor_spectra.as_ref(), outcome);
         let spectra = self.floor_spectra(outcome);
         if let Some(reason) = outcome.history_fault() {
@@ -113,12 +116,8 @@ impl Ran {
             None => {}
         }
         summary.gradients.clone_from(&self.gradients);
-        match &self.isolation_bounds {
-            Some(Ok(found)) => summary.isolation_bounds = Some(compare(summary, found)),
-            Some(Err(problem)) => summary.warnings.push(format!(
-                "there is no envelope over the bounds of bearings: {problem}"
-            )),
-            None => {}
+        if let Some(found) = &self.isolation_bounds {
+            add_bounds(summary, found);
         }
         if self.has_variants() {
             self.prepared.judge(summary);

@@ -74,6 +74,10 @@ pub(crate) fn write_run(
     if !add_run_without_contact(&mut ran, settings, stop) {
         return Ok(false);
     }
+    ran.run_isolation_bounds(true, &mut observer(stop));
+    if stop() {
+        return Ok(false);
+    }
     std::fs::create_dir_all(folder)
         .map_err(|error| StudyError::Output(format!("{}: {error}", folder.display())))?;
     let summary = ran.summary();

@@ -122,6 +122,7 @@ fn run(files: &Files, arguments: Value, cancelled: Cancelled<'_>) -> Result<Stri
     });
     let mut ran = prepared.run(settings, &mut observer);
     ran.run_without_contact(settings, &mut observer);
+    ran.run_isolation_bounds(true, &mut observer);
     drop(observer);
     match ran.outcome.end_of_all() {
         RunEnd::Completed => {}

@@ -134,6 +134,20 @@ pub struct Summary {
 
 #[rustfmt::skip]
 impl Summary {
+    /// Gap needed of a gap over nominal properties and bounds of bearings, where these were run without contact \[m\].
+    #[must_use]
+    pub fn gap_needed_at_bounds_m(&self, gap: usize) -> Option<f64> {
+        let bounds = self.isolation_bounds.as_ref()?.gaps.get(gap)?;
+        Some(bounds.closing_without_contact_m.as_ref()?.envelope)
+    }
+
+    /// Gap needed of a gap, over the bounds of bearings where they are known; `None` without a run without contact \[m\].
+    #[must_use]
+    pub fn gap_needed_m(&self, gap: usize) -> Option<f64> {
+        let nominal = || self.gaps.get(gap)?.closing_without_contact_m;
+        self.gap_needed_at_bounds_m(gap).or_else(nominal)
+    }
+
     /// Numbers of all gaps together; none if there is no gap.
     pub const POUNDING: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("impact_count", "impacts of all gaps", |s| s.gaps.iter().map(|gap| gap.impact_count).sum()).not_in_summary().in_study(),
