@@ -84,7 +84,7 @@ impl Content {
 
 impl Results<'_> {
     /// Writes `summary.json` and the files asked for into a folder that exists. Either all are replaced or, if one of
-    /// them cannot be written, none.
+    /// them cannot be written, none. With tables, files of an earlier run that this one does not write are removed.
     ///
     /// # Errors
     /// [`OutputError`] with path and reason.
@@ -116,7 +116,7 @@ impl Results<'_> {
                 reason: reason.to_owned(),
             });
         }
-        staged.put_in_place()
+        staged.put_in_place(content.tables)
     }
 
     fn write_tables(&self, staged: &mut Staged) -> Result<(), OutputError> {
@@ -194,7 +194,8 @@ impl Staged {
         Ok(())
     }
 
-    fn put_in_place(self) -> Result<(), OutputError> {
+    /// Replaces what is in the folder; `alone` removes all other files of an earlier run, which may be of another model.
+    fn put_in_place(self, alone: bool) -> Result<(), OutputError> {
         // A folder of such a name would stop the files after the first.
         for name in &self.names {
             let path = self.folder.join(name);
@@ -205,6 +206,15 @@ impl Staged {
         for name in &self.names {
             let path = self.folder.join(name);
             jostle_io::put_in_place(&self.aside.path().join(name), &path)?;
+        }
+        let others = FILES
+            .iter()
+            .filter(|(name, _)| alone && !self.names.contains(name));
+        for (name, kind) in others {
+            let path = self.folder.join(name);
+            if may_write(&path, Some(*kind), false).is_ok_and(|exists| exists) {
+                std::fs::remove_file(&path).map_err(unwritable(&path))?;
+            }
         }
         self.aside.close().map_err(unwritable(&self.folder))
     }

@@ -279,3 +279,25 @@ const SELECT: [&str; 16] = [
     "--damping",
     "0.05",
 ];
+
+#[test]
+fn a_run_leaves_no_file_of_an_earlier_run_of_another_model() {
+    let folder = with_model();
+    let hinged = SMALL.to_owned() + "hinges = { rule = \"bilinear\", yield = \"20 kN\" }\n";
+    std::fs::write(folder.path().join("hinged.toml"), hinged).expect("written");
+    let results = folder.path().join("results");
+    let run = |arguments: &[&str]| {
+        let output = jostle(
+            folder.path(),
+            &[&["run", "--out", "results"], arguments].concat(),
+        );
+        assert!(output.status.success(), "{}", complained(&output));
+    };
+    run(&["hinged.toml"]);
+    assert!(results.join("hinges.parquet").exists() && results.join("report.html").exists());
+    std::fs::write(results.join("notes.txt"), "mine").expect("written");
+    run(&["small.toml"]);
+    assert!(!results.join("hinges.parquet").exists() && results.join("report.html").exists());
+    run(&["small.toml", "--no-report"]);
+    assert!(!results.join("report.html").exists() && results.join("notes.txt").exists());
+}
