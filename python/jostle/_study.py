@@ -496,6 +496,8 @@ class CriticalGap:
         curve: force and impacts over the gap, from zero to the gap needed for both signs; empty unless requested.
         reversed_gap: smallest gap without an impact under the motion with the other sign [m].
         reversed_curve: ``curve`` under the motion with the other sign.
+        gap_at_bounds: smallest gap without an impact at the lower and at the upper bounds of the bearings, the larger of the two
+            signs; ``None`` if the model states no bounds [m].
 
     Examples:
         >>> import jostle
@@ -515,6 +517,7 @@ class CriticalGap:
     curve: tuple[GapPoint, ...] = ()
     reversed_gap: float | None = None
     reversed_curve: tuple[GapPoint, ...] = ()
+    gap_at_bounds: tuple[float, float] | None = None
 
     def _repr_html_(self) -> str:
         from ._draw import gap_html
@@ -597,6 +600,7 @@ def critical_gap(
                     _points(gap.get("curve", ())),
                     gap["reversed_gap_m"],
                     _points(gap.get("reversed_curve", ())),
+                    cast("tuple[float, float] | None", tuple(gap["gap_at_bounds_m"]) if "gap_at_bounds_m" in gap else None),
                 )
             )
     return found

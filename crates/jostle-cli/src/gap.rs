@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use jostle::Building;
 use jostle::separation::{Code, CodeInputs, JointSystem};
 use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_io::{Dimension, parse_option};
@@ -101,17 +100,6 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         title.clone_from(&opened.input.model.title);
         for warning in &opened.input.warnings {
             note(&mut notes, &opened.input.with_line(warning));
-        }
-        let bounded = |building: &&Building| {
-            let isolation = building.base.isolation.as_ref();
-            isolation.is_some_and(|isolation| isolation.bounds.is_some())
-        };
-        if let Some(building) = opened.input.model.buildings.iter().find(bounded) {
-            let warning = format!(
-                "\"{}\": the gaps needed are those with nominal bearings; at the bounds of the bearings they can be wider: see jostle run",
-                building.name
-            );
-            note(&mut notes, &warning);
         }
         let inputs = opened.input.each_record();
         let of = inputs.len() * records.len();
@@ -252,6 +240,14 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
             counted(gap.runs, "run"),
             HEIGHT.text(gap.height_m, 2)
         );
+        if let Some([lower, upper]) = gap.gap_at_bounds_m {
+            text += &format!(
+                "  over the bounds of the bearings {}  (lower {}, upper {}, the larger of the two signs; rules are compared with it)\n",
+                jostle_run::styled(jostle_run::BOLD, &required_width(gap.needed_m())),
+                required_width(lower),
+                required_width(upper)
+            );
+        }
         if let Some(rho) = gap.ddc_correlation {
             text += &format!(
                 "  periods {:.3} and {:.3} s, damping {:.1} and {:.1} %, correlation {rho:.4}\n",
@@ -298,7 +294,7 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
                 "\n{} over {}, the larger of the two signs: greatest {}, mean {}, standard deviation {}\n",
                 set.governing.between.join(" ↔ "),
                 counted(records, "record"),
-                required_width(set.governing.of_both_signs_m()),
+                required_width(set.governing.needed_m()),
                 LENGTH.text(set.mean_m, 1),
                 LENGTH.text(set.deviation_m, 1)
             );

@@ -2,8 +2,8 @@
 
 use jostle::hysteresis::Side;
 use jostle::model::{Base, Building, Joint, Structure};
-use jostle_section::Section;
 use jostle_section::formula::Member;
+use jostle_section::{Section, bar_size};
 
 use crate::facts::{Facts, by_place};
 use crate::message;
@@ -212,7 +212,7 @@ fn section(known: &ReinforcedSection) -> String {
     );
     if let Some(ties) = &section.ties {
         text.push_str(&message::ties_d_at_mm_legs(
-            size(ties.diameter),
+            bar_size(ties.diameter),
             size(ties.spacing),
             ties.legs,
         ));
@@ -253,7 +253,7 @@ fn counted(section: &Section, wanted: impl Fn(f64) -> bool) -> String {
     }
     let texts: Vec<String> = sizes
         .iter()
-        .map(|(size, count)| format!("{count}\u{a0}d{}", format::plain(size * 1e3, 3)))
+        .map(|(size, count)| format!("{count}\u{a0}{}", bar_size(*size)))
         .collect();
     texts.join(" + ")
 }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::gap_runs::{GapError, GapPoint, GapRuns, Tried};
+use crate::isolation_bounds::{at_bound, has_bounds};
 
 /// Settings of a search.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +60,9 @@ pub struct CriticalGap {
     pub gap_m: f64,
     /// Smallest gap without an impact under the motion with the other sign; `null` if not asked for \[m\].
     pub reversed_gap_m: Option<f64>,
+    /// The same at the lower and at the upper bounds of the bearings, of both signs the greater, where the model states bounds \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap_at_bounds_m: Option<[f64; 2]>,
     /// Widest gap tried with an impact; `null` when not even a gap of zero is hit \[m\].
     pub pounding_at_m: Option<f64>,
     /// Greatest closing of the buildings passing through each other \[m\].
@@ -86,10 +90,11 @@ pub struct CriticalGap {
 }
 
 impl CriticalGap {
-    /// Smallest gap found without an impact under the motion and, where that was asked for, its reverse \[m\].
+    /// Smallest gap without an impact over the signs of the motion that were asked for and the bounds of the bearings \[m\].
     #[must_use]
-    pub fn of_both_signs_m(&self) -> f64 {
-        self.gap_m.max(self.reversed_gap_m.unwrap_or(0.0))
+    pub fn needed_m(&self) -> f64 {
+        let others = self.gap_at_bounds_m.into_iter().flatten();
+        others.chain(self.reversed_gap_m).fold(self.gap_m, f64::max)
     }
 }
 
@@ -117,11 +122,11 @@ pub fn gap_sets(found: &[CriticalGap]) -> Vec<GapSet<'_>> {
         }
     }
     let sets = pairs.into_iter().filter_map(|(_, gaps)| {
-        let widths: Vec<f64> = gaps.iter().map(|gap| gap.of_both_signs_m()).collect();
+        let widths: Vec<f64> = gaps.iter().map(|gap| gap.needed_m()).collect();
         let n = widths.len() as f64;
         let mean = widths.iter().sum::<f64>() / n;
         let square: f64 = widths.iter().map(|w| (w - mean) * (w - mean)).sum();
-        let of = |gap: &CriticalGap| gap.of_both_signs_m();
+        let of = |gap: &CriticalGap| gap.needed_m();
         let governing = gaps
             .iter()
             .copied()
@@ -243,8 +248,9 @@ const MOST_RUNS: usize = 200;
 /// Buildings that do not touch do not feel the gap, so the greatest closing of a run without contact is the answer
 /// except for rounding: no wider gap is run, because there is no contact. A run with contact at a narrower one
 /// makes sure that there is an impact, and bisection narrows the bracket to `settings.tolerance`. No width is run
-/// twice. Both signs of the motion and the outcomes of rules are run on all cores. `report` is called often while runs
-/// are under way. A search that is stopped keeps what it has found.
+/// twice. Both signs of the motion and the outcomes of rules are run on all cores. Where bearings have bounds, the gap
+/// needed is searched with all bearings at either of them too. `report` is called often while runs are under way. A search that is stopped
+/// keeps what it has found.
 ///
 /// # Errors
 /// [`GapError`]; [`GapError::Stopped`] where it is stopped before anything is found.
@@ -255,10 +261,49 @@ pub fn search_gaps(
     stop: &(dyn Fn() -> bool + Sync),
     report: &(dyn Fn(&GapProgress) + Sync),
 ) -> Result<GapSearch, GapError> {
+    let work = Work::new(report);
+    let mut search = search_with(model, motion, settings, stop, &work)?;
+    if search.stopped || !has_bounds(model) {
+        return Ok(search);
+    }
+    let settings = GapSettings {
+        outcomes: false,
+        curve: 0,
+        ..settings.clone()
+    };
+    let at_bound = |upper| search_with(&at_bound(model, upper), motion, &settings, stop, &work);
+    let (lower, upper) = match (at_bound(false), at_bound(true)) {
+        (Ok(lower), Ok(upper)) if !lower.stopped && !upper.stopped => (lower, upper),
+        (Err(error), _) | (_, Err(error)) if !matches!(error, GapError::Stopped) => {
+            return Err(error);
+        }
+        _ => {
+            search.stopped = true;
+            return Ok(search);
+        }
+    };
+    let bounds = lower.gaps.iter().zip(&upper.gaps);
+    for (gap, (lower, upper)) in search.gaps.iter_mut().zip(bounds) {
+        gap.gap_at_bounds_m = Some([lower.needed_m(), upper.needed_m()]);
+        let needed = gap.needed_m();
+        for rule in &mut gap.rules {
+            rule.ratio_of_both_signs = rule.ratio_of_both_signs.map(|_| rule.gap_m / needed);
+        }
+    }
+    Ok(search)
+}
+
+/// Searches every gap with the bearings as they are.
+fn search_with(
+    model: &Model,
+    motion: &GroundMotion,
+    settings: &GapSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+    work: &Work<'_>,
+) -> Result<GapSearch, GapError> {
     if model.gaps.is_empty() {
         return Err(GapError::NoGap);
     }
-    let work = Work::new(report);
     let widths = vec![NEVER; model.gaps.len()];
     let apart = |motion| -> Result<_, GapError> {
         let runs = GapRuns::new(model, motion, stop)?;
@@ -275,7 +320,7 @@ pub fn search_gaps(
     let search = Search {
         model,
         motion,
-        work: &work,
+        work,
         runs: &runs,
         apart: &apart,
     };
@@ -640,6 +685,7 @@ impl Search<'_> {
             motion_is_reduced,
             gap_m: bracket.free,
             reversed_gap_m: reversed_closing,
+            gap_at_bounds_m: None,
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
@@ -798,6 +844,26 @@ mod tests {
             found.gap_m
         );
         assert!((found.gap_m / found.closing_without_contact_m - 1.0).abs() < 2e-3);
+
+        // The bounds are models with these bearings: 0.85 and 1.3 times stiffness and yield force.
+        let at = |factor: f64| {
+            let mut model = input.model.clone();
+            for building in &mut model.buildings {
+                if let Some(isolation) = building.base.isolation.as_mut() {
+                    isolation.bounds = None;
+                    isolation.isolator = isolation.isolator.scaled(jostle::BearingFactors {
+                        stiffness: factor,
+                        strength: factor,
+                    });
+                }
+            }
+            run(&model).needed_m()
+        };
+        let bounds = [0.85, 1.3].map(at);
+        assert_eq!(found.gap_at_bounds_m, Some(bounds));
+        assert!(bounds[0] > bounds[1] && found.needed_m() == bounds[0]);
+        let ratio = sum.and_then(|sum| Some(sum.gap_m / sum.ratio_of_both_signs?));
+        assert!(ratio.is_some_and(|needed| (needed / bounds[0] - 1.0).abs() < 1e-12));
     }
 
     /// Gaps that cannot close are not run, none is run twice, and every run is reported.
@@ -861,7 +927,7 @@ mod tests {
         let gap = found.unwrap_or_else(|error| panic!("{error}")).remove(0);
         let other = critical_gaps(&input.model, &motion.reversed(), &settings, &|| false);
         let other = other.unwrap_or_else(|error| panic!("{error}")).remove(0);
-        let apart = gap.of_both_signs_m() - other.of_both_signs_m();
+        let apart = gap.needed_m() - other.needed_m();
         assert!(apart.abs() <= settings.tolerance);
         for curve in [&gap.curve, &gap.reversed_curve] {
             assert_eq!(curve.len(), 4);

@@ -110,7 +110,7 @@ pub fn gap_json(title: &str, found: &[CriticalGap], notes: &[String]) -> String 
             serde_json::json!({
                 "between": set.governing.between,
                 "records": set.gaps.len(),
-                "gap_max_m": set.governing.of_both_signs_m(),
+                "gap_max_m": set.governing.needed_m(),
                 "gap_mean_m": set.mean_m,
                 "gap_deviation_m": set.deviation_m,
             })
@@ -233,7 +233,7 @@ fn subject(sets: &[GapSet<'_>]) -> String {
 
 /// The tile of a pair: the gap needed, under which motion, and what the model has.
 fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
-    let needed = set.governing.of_both_signs_m();
+    let needed = set.governing.needed_m();
     let pair = match pairs {
         1 => String::new(),
         _ => format!(", {}", set.governing.between.join(" ↔ ")),
@@ -248,6 +248,10 @@ fn answer(set: &GapSet<'_>, pairs: usize) -> [String; 3] {
         false => message::ground_level().to_owned(),
     };
     let mut note = message::governing_and_model(governing(set), there, height);
+    if let Some(bounds) = set.governing.gap_at_bounds_m {
+        let [lower, upper] = bounds.map(required_width);
+        note = format!("{note}; {}", message::gap_needed_at_bounds(lower, upper));
+    }
     if set.gaps.len() > 1 {
         let scatter = message::mean_and_deviation(
             LENGTH.text(set.mean_m, 1),
@@ -273,7 +277,7 @@ fn headlines(sets: &[GapSet<'_>]) -> Vec<String> {
 
 /// How much wider the gap of the model should be; 0 if it is wide enough \[m\].
 fn lacks(set: &GapSet<'_>) -> f64 {
-    (set.governing.of_both_signs_m() - set.governing.model_gap_m).max(0.0)
+    (set.governing.needed_m() - set.governing.model_gap_m).max(0.0)
 }
 
 fn headline(set: &GapSet<'_>) -> String {
@@ -297,7 +301,7 @@ fn headline(set: &GapSet<'_>) -> String {
     let gap = set.governing;
     let signs = gap.reversed_gap_m;
     let signs = signs.map_or("", |_| message::either_sign_of_the_motion());
-    let needed = LENGTH.rounded_up(gap.of_both_signs_m());
+    let needed = LENGTH.rounded_up(gap.needed_m());
     let narrow = match lacks(set) > 0.0 {
         true => message::gap_is_too_narrow(&pair, required_width(lacks(set))),
         false => String::new(),
@@ -354,7 +358,7 @@ fn lines(set: &GapSet<'_>, of: &dyn Fn(&crate::GapPoint) -> f64) -> Vec<Series> 
 /// Dots of the rules that require less than the gap needed; those that require the same share one.
 fn dots_of_rules(gap: &CriticalGap) -> Vec<Series> {
     let rules = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m)).into_iter();
-    let narrow = rules.filter(|(_, rule)| rule.gap_m <= gap.of_both_signs_m());
+    let narrow = rules.filter(|(_, rule)| rule.gap_m <= gap.needed_m());
     let mut dots: Vec<(String, [f64; 2])> = Vec::new();
     for (name, rule) in narrow {
         let Some(worse) = rule.worse_outcome() else {
@@ -384,10 +388,7 @@ fn sections_of(set: &GapSet<'_>) -> Vec<Section> {
     };
     let marks = vec![
         mark(message::gap_of_the_model(), set.governing.model_gap_m),
-        mark(
-            message::gap_needed("").as_str(),
-            set.governing.of_both_signs_m(),
-        ),
+        mark(message::gap_needed("").as_str(), set.governing.needed_m()),
     ];
     let chart = |y: Axis, series: Vec<Series>| Chart {
         title: y.name.clone(),
@@ -470,7 +471,7 @@ fn rules_of(gap: &CriticalGap) -> Option<Section> {
         row.push(in_shown_units(&rule.source).into_owned());
         row
     });
-    let needed = message::gap_needed_mm(LENGTH.rounded_up(gap.of_both_signs_m()));
+    let needed = message::gap_needed_mm(LENGTH.rounded_up(gap.needed_m()));
     (!gap.rules.is_empty()).then(|| Section {
         title: message::rules_under(gap.between.join(" ↔ "), &gap.motion),
         remark: match has_outcomes {
@@ -510,7 +511,7 @@ fn rules_of_records(set: &GapSet<'_>) -> Option<Section> {
     }
     let motions = set.gaps.iter().map(|gap| gap.motion.clone());
     let needed = set.gaps.iter();
-    let needed = needed.map(|gap| LENGTH.rounded_up(gap.of_both_signs_m()));
+    let needed = needed.map(|gap| LENGTH.rounded_up(gap.needed_m()));
     let head = std::iter::once(message::rule().to_owned()).chain(motions);
     let first = std::iter::once(message::smallest_gap_without_pounding().to_owned()).chain(needed);
     rows.insert(0, first.collect());

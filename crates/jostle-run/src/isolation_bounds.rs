@@ -35,7 +35,7 @@ impl Ran {
 }
 
 /// Whether a model states bounds of bearings.
-fn has_bounds(model: &Model) -> bool {
+pub(crate) fn has_bounds(model: &Model) -> bool {
     let mut isolated = model
         .buildings
         .iter()
@@ -50,7 +50,7 @@ fn at_bounds(
 ) -> Result<RunsAtBounds, String> {
     let mut one = |upper: bool| {
         let words = BOUNDS[usize::from(upper)];
-        let model = scaled(&prepared.input.model, upper);
+        let model = at_bound(&prepared.input.model, upper);
         let other = prepared.with_model(model, words, System::assemble)?;
         let run =
             |other: Prepared| other.run_variant(words, apart, Stage::IsolationBounds, observer);
@@ -60,7 +60,7 @@ fn at_bounds(
 }
 
 /// The model with all bearings at one bound.
-fn scaled(model: &Model, upper: bool) -> Model {
+pub(crate) fn at_bound(model: &Model, upper: bool) -> Model {
     let mut model = model.clone();
     let bases = model
         .buildings

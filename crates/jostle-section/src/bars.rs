@@ -285,6 +285,21 @@ const US_BARS: [(&str, f64); 11] = [
 /// An inch \[mm\].
 const INCH: f64 = 25.4;
 
+/// Size of a bar as it is ordered: `"#8"` if its diameter is that of a US bar, otherwise its millimetres, `"d25"`. `diameter`: in m.
+///
+/// ```
+/// assert_eq!([0.0254, 0.025].map(jostle_section::bar_size), ["#8", "d25"]);
+/// ```
+#[must_use]
+pub fn bar_size(diameter: f64) -> String {
+    let millimetres = 1e3 * diameter;
+    let is = |(_, inches): &&(&str, f64)| (INCH * inches - millimetres).abs() < 1e-6;
+    match US_BARS.iter().find(is) {
+        Some((number, _)) => format!("#{number}"),
+        None => format!("d{}", (1e6 * millimetres).round() / 1e6),
+    }
+}
+
 /// Reads `"d25"` or `"#8"`: its diameter \[mm\]; `None` if it is neither.
 fn parse_diameter(text: &str) -> Result<Option<f64>, BarsError> {
     if let Some(number) = text.strip_prefix('#') {

@@ -30,7 +30,7 @@ mod survey;
 mod tee;
 mod wall;
 
-pub use bars::{Bar, BarsError, Reinforcement, Ties};
+pub use bars::{Bar, BarsError, Reinforcement, Ties, bar_size};
 pub use buckling::BucklingCurve;
 pub use column_fibres::FibreOptions;
 pub use concrete::{CONCRETE_GRADES, Concrete, EN_CONCRETE_GRADES, StrengthLevel};

@@ -878,7 +878,7 @@ messages! {
     column_section = "column section";
     beam_section = "beam section";
     section_on_floors(floors, width, depth, section, area, strength, yield_strength) = "{floors}{width} × {depth}\u{a0}{mm}, {section} ({area}\u{a0}%), concrete {strength}\u{a0}{MPa}, steel {yield_strength}\u{a0}{MPa}";
-    ties_d_at_mm_legs(diameter, spacing, legs) = ", ties d{diameter} at {spacing}\u{a0}{mm}, {legs} legs";
+    ties_d_at_mm_legs(diameter, spacing, legs) = ", ties {diameter} at {spacing}\u{a0}{mm}, {legs} legs";
     axial_compression(range) = ", axial compression {range}";
     top_bottom(top, bottom) = "{top} top, {bottom} bottom";
 
@@ -1010,6 +1010,7 @@ messages! {
     under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion}, peak {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
     under_any_record(records, pair, gap, sign, motion, strongest) = "Under {records} records: no impact between {pair} for gaps of {gap} {mm} or more{sign} (governing: {motion}).{strongest}";
     under_motion(motion) = " under {motion}";
+    gap_needed_at_bounds(lower, upper) = "at the bounds of the bearings: lower {lower}, upper {upper}";
     governing_and_model(motion, width, height) = "{motion}; closes first at {height}; the model has {width}";
     lacks_width(text, lacks) = "{text}, {lacks} too narrow";
     gap_is_too_narrow(pair, lacks) = "The gap between {pair} is {lacks} too narrow. ";

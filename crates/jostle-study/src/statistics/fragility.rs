@@ -29,6 +29,11 @@ impl Lognormal {
     }
 }
 
+/// An intensity without digits that say nothing.
+fn short(intensity: f64) -> f64 {
+    (1e6 * intensity).round() / 1e6
+}
+
 /// Why no curve could be fitted.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
@@ -48,7 +53,9 @@ pub enum FitError {
     },
     /// Every intensity without the event lies below every one with it: β tends to zero.
     #[error(
-        "the event never happens up to {below:.6} and always from {above:.6} on: there is no scatter to fit; the median lies between"
+        "the event never happens up to {} and always from {} on: there is no scatter to fit; the median lies between",
+        short(*below),
+        short(*above)
     )]
     Separated {
         /// Greatest intensity without the event.
@@ -58,7 +65,9 @@ pub enum FitError {
     },
     /// The same of a logistic regression: the intensities of both outcomes do not overlap.
     #[error(
-        "{what}: none up to {below:.6} and all from {above:.6} on, so that there is no scatter for a logistic regression; the chance of it turns from 0 to 1 in between"
+        "{what}: none up to {} and all from {} on, so that there is no scatter for a logistic regression; the chance of it turns from 0 to 1 in between",
+        short(*below),
+        short(*above)
     )]
     NoOverlap {
         /// The event.
