@@ -566,13 +566,21 @@ fn drawn(draw: &mut Draw) -> Drawn {
         beam_mass = draw.between(500.0, 4000.0);
         match draw.one_of(&["", "", "", "base", "rubber", "lead"]) {
             "base" => {
-                let sliding = draw.one_of(&["", ", horizontal_stiffness = \"150 MN/m\""]);
-                plane.push(format!("base = {{ rotational_stiffness = \"200 MN.m/rad\"{sliding} }}"));
+                let turning = "rotational_stiffness = \"200 MN.m/rad\"";
+                let sliding = "horizontal_stiffness = \"150 MN/m\"";
+                let both = format!("{turning}, {sliding}");
+                let base = draw.one_of(&[turning, sliding, both.as_str()]);
+                plane.push(format!("base = {{ {base} }}"));
             }
             "rubber" => plane.push("isolation = { kind = \"linear\", stiffness = \"20 MN/m\", mat_mass = \"60 t\", damping_ratio = 0.1 }".to_owned()),
             "lead" => plane.push("isolation = { kind = \"lead-rubber\", stiffness = \"40 MN/m\", post_yield = 0.1, mat_mass = \"60 t\", yield = \"50 kN\" }".to_owned()),
             _ => {}
         }
+    } else if draw.chance(0.3) {
+        let sways =
+            |stiffness: f64| format!("base = {{ horizontal_stiffness = \"{stiffness} MN/m\" }}");
+        plane.push(sways(150.0));
+        space.push(sways(300.0));
     }
     let shared = shared.join("\n");
     let head = format!(
