@@ -580,7 +580,7 @@ fn drawn(draw: &mut Draw) -> Drawn {
         let sways =
             |stiffness: f64| format!("base = {{ horizontal_stiffness = \"{stiffness} MN/m\" }}");
         plane.push(sways(150.0));
-        space.push(sways(300.0));
+        space.push(sways(300.0 * (bays + 1) as f64));
     }
     let shared = shared.join("\n");
     let head = format!(

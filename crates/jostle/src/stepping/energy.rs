@@ -107,6 +107,11 @@ impl EnergyAudit {
         Self {
             at_rest,
             initial: stored.kinetic + recoverable - at_rest,
+            // Energies at rest round too.
+            imbalance: Imbalance {
+                largest: at_rest,
+                ..Imbalance::default()
+            },
             springs: stored.springs,
             links: stored.links,
             yielding_links: stored.yielding_links,

@@ -353,6 +353,11 @@ impl StickModel {
         }
     }
 
+    /// How the rocking base raises the point of the site at which a displacement is; `None` if the base does not rock.
+    pub(super) fn rise_with_base(&self, place: Place) -> Option<&Row> {
+        self.raised.get(&index_of(place))
+    }
+
     /// Ties the rise of a displacement to that of the rocking base.
     pub(super) fn raise(&mut self, place: Place) {
         let index = index_of(place);

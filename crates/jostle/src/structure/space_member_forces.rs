@@ -249,7 +249,7 @@ fn over(dofs: &[Option<usize>], row: &[f64]) -> LinearForm {
     }
 }
 
-/// Axial force and moment at the foot of a wall, and how much longer it becomes between two floors; `None` for the ground.
+/// Axial force and moment at the foot of a wall, and how much longer it becomes between two floors; `None` for its foot.
 fn of_condensed_wall(
     building: &AssembledBuilding,
     frame: &CondensedFrame,
@@ -294,15 +294,27 @@ fn of_jointed_wall(
         .position(|member| member.place == foot)?;
     let plane = bending[index][0][wall.along.index()].as_ref()?;
     let mut elongation = LinearForm::default();
+    let node = |floor: usize| {
+        let mut joints = frame.joints.iter();
+        let joint = joints.find(|joint| joint.floor == floor && joint.crossing == wall.line);
+        joint?.nodes[0]
+    };
     for (floor, sign) in rises.into_iter().zip([-1.0, 1.0]) {
-        let joint = floor.and_then(|floor| {
-            let mut joints = frame.joints.iter();
-            joints.find(|joint| joint.floor == floor && joint.crossing == wall.line)
-        });
-        if let Some(rise) = joint.and_then(|joint| joint.nodes[0])
-            && let Some(dof) = building.equations.dof((rise, THETA))
-        {
+        let rise = match floor {
+            Some(floor) => node(floor).and_then(|node| building.equations.dof((node, THETA))),
+            None => None,
+        };
+        if let Some(dof) = rise {
             elongation.displacement.add(dof, sign);
+        }
+    }
+    // What stands at the foot rises with a base that rocks.
+    let base = &building.discretization.stick_model;
+    if let (None, Some(node)) = (rises[0], node(0))
+        && let Some(rise) = base.rise_with_base((node, THETA))
+    {
+        for &(dof, share) in building.equations.row(rise).entries() {
+            elongation.displacement.add(dof, -share);
         }
     }
     let axial = cuts.axial(&bending).swap_remove(index).swap_remove(0);

@@ -462,13 +462,13 @@ fn columns_of_a_storey_carry_what_is_above() {
         ..sways
     };
     let bases = [Base::default(), sways, turns, both, rocks];
-    for (axial, base) in [true, false]
+    for (axial, footing) in [true, false]
         .into_iter()
         .flat_map(|axial| bases.iter().map(move |base| (axial, base)))
     {
         let tiers = without_symmetry(Flexible { axial, shear: true });
         let on_base = Building {
-            base: *base,
+            base: *footing,
             ..building("A", tiers.clone(), FIVE_PERCENT)
         };
         let system = assembled(&model(vec![on_base], vec![]));
@@ -512,7 +512,13 @@ fn columns_of_a_storey_carry_what_is_above() {
                 expected[4] += py * (tops[floor] - base);
             }
             for (sum, expected) in sum.iter().zip(expected) {
-                close(*sum, expected, 1e6, 1e-9, &format!("storey {storey}"));
+                close(
+                    *sum,
+                    expected,
+                    1e6,
+                    1e-9,
+                    &format!("storey {storey} on {footing:?}"),
+                );
             }
             close(vertical, 0.0, 1e6, 1e-9, "axial forces of a storey");
         }
