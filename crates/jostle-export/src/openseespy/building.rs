@@ -5,7 +5,9 @@ use std::fmt::Write;
 
 use jostle::ProportionalDamping;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, SlidingStage};
-use jostle::structure::{Discretization, Element, Node, Part, Spring, StickModel, Support};
+use jostle::structure::{
+    Discretization, Element, FrameDiagonal, Node, Part, Spring, StickModel, Support,
+};
 use jostle::system::BuildingSystem;
 
 use super::foundation::{GROUND, Turning};
@@ -394,10 +396,11 @@ impl Script<'_> {
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
         let mut panels = Panels::default();
+        let stick_model = &building.discretization.stick_model;
         for diagonal in &building.discretization.diagonals {
             let ends = diagonal.ends.map(|node| self.tag(index, node));
             let first = self.next_element;
-            self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+            self.add_diagonal(stick_model, diagonal, ends)?;
             panels.add(diagonal, first..self.next_element);
         }
         self.add_panels(index, building, panels);
@@ -407,13 +410,23 @@ impl Script<'_> {
     /// A brace or a strut between two joints.
     pub(super) fn add_diagonal(
         &mut self,
+        stick_model: &StickModel,
+        diagonal: &FrameDiagonal,
         [first, last]: [usize; 2],
-        stiffness: f64,
-        hysteresis: Option<&Hysteresis>,
     ) -> Result<(), &'static str> {
-        // What yields has no part in the damping of the building.
-        let damped = python_bool(hysteresis.is_none());
-        for material in self.spring_materials(stiffness, hysteresis, 0.0)? {
+        let hysteresis = diagonal.spring.as_ref();
+        let mut yielding = stick_model.yielding.iter();
+        let damped = match hysteresis {
+            None => ProportionalDamping::Initial,
+            Some(own) => {
+                yielding
+                    .find(|one| one.row == diagonal.elongation && one.hysteresis == *own)
+                    .ok_or("has a brace or strut without a spring")?
+                    .proportional_damping
+            }
+        };
+        let damped = python_damping(damped);
+        for material in self.spring_materials(diagonal.stiffness, hysteresis, 0.0)? {
             let tag = self.element();
             let _ = writeln!(
                 self.diagonals,

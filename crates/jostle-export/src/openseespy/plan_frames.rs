@@ -110,7 +110,7 @@ impl Script<'_> {
             if diagonal.frame.is_some() {
                 let ends = diagonal.ends.map(|node| self.tag(index, node));
                 let first = self.next_element;
-                self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+                self.add_diagonal(stick_model, diagonal, ends)?;
                 panels.add(diagonal, first..self.next_element);
             }
         }
