@@ -10,6 +10,7 @@ use jostle::structure::{
 };
 use jostle::system::BuildingSystem;
 
+use super::arms::{self, Stiffness};
 use super::foundation::{GROUND, Turning};
 use super::panels::Panels;
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
@@ -17,8 +18,6 @@ use super::ties::{COMPONENTS, ROTATION, Ties, is_held, is_vertical, stiffnesses}
 
 /// Elastic stiffness of the stages of a bearing together, in units of that of the bearing \[–\].
 const RIGID: f64 = 1e4;
-/// Stiffness of what holds an end on its rigid arm, in units of the stiffest member in bending \[–\].
-const STIFF: f64 = 1e5;
 
 impl Script<'_> {
     pub(super) fn add_building(
@@ -251,12 +250,6 @@ impl Script<'_> {
 
     /// What stands at the end of a rigid arm of a joint: faces of walls, and ends of columns that are rigid inside their joints.
     fn add_arms(&mut self, index: usize, stick_model: &StickModel) {
-        let bending = stick_model.members.iter().map(|member| {
-            let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
-            let length = (b.x - a.x).abs().max((b.y - a.y).abs());
-            12.0 * member.flexural_rigidity / (length * length * length)
-        });
-        let stiffest = bending.fold(0.0, f64::max);
         for hinge in &stick_model.hinges {
             let [joint, end] = hinge.ends;
             let turns_with = hinge.rotational_stiffness.is_none();
@@ -268,11 +261,10 @@ impl Script<'_> {
             });
             if turns_with && tied.contains(&true) {
                 let ends = [joint, end].map(|node| self.tag(index, node));
-                let material = self.materials.elastic(STIFF * stiffest, 0.0);
+                let stiff = Stiffness::of_arm(stick_model, hinge).bending;
+                let material = self.materials.elastic(stiff, 0.0);
                 self.lever(ends, material, Turning::First, ProportionalDamping::None);
-                self.remark(
-                    "What stands at the end of a rigid arm is held there by a spring 1e5 times as stiff as the stiffest member in bending.",
-                );
+                self.remark(arms::REMARK);
             }
         }
     }
