@@ -12,9 +12,9 @@ pub struct Building {
     pub id: String,
     /// Row of the inventory, from 1.
     pub row: usize,
-    /// Outline in the plane \[m\].
+    /// Outline in the plane, with its courts \[m\].
     pub outline: Polygon,
-    /// Area of the outline \[m²\].
+    /// Area of the outline less that of courts \[m²\].
     pub area: f64,
     /// Storeys above the ground, where known.
     pub storeys: Option<usize>,

@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use geo::{Area, BooleanOps, Centroid, LineString, MultiPolygon, Orient, Polygon, Validation};
+use geo::{
+    Area, BooleanOps, Centroid, CoordsIter, LineString, MultiPolygon, Orient, Polygon, Validation,
+};
 
 use crate::building::Building;
 
@@ -22,7 +24,7 @@ pub struct Mend {
     pub detail: String,
 }
 
-/// The largest part of an outline without its courts, valid, anticlockwise; and how it was mended, if it was.
+/// The largest part of an outline with its courts, valid, anticlockwise; and how it was mended, if it was.
 pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let count = parts.len();
     let mut how = Vec::new();
@@ -38,30 +40,32 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let mut mended = Vec::new();
     let mut invalid = false;
     for part in parts {
-        let (exterior, _) = part.into_inner();
-        let outline = Polygon::new(exterior, Vec::new());
         // The check compares every wall with every other; the rule below does not.
-        let long = outline.exterior().0.len() > LONG;
-        if !long && outline.is_valid() {
-            mended.push(outline);
+        let long = part.coords_count() > LONG;
+        if !long && part.is_valid() {
+            mended.push(part);
             continue;
         }
         invalid |= !long;
-        // The even–odd rule gives what the ring encloses.
-        let empty = MultiPolygon::<f64>::new(Vec::new());
-        mended.extend(MultiPolygon::new(vec![outline]).union(&empty).0);
+        // The even–odd rule gives what a ring encloses; courts are taken away from it, wherever they lie.
+        let (exterior, courts) = part.into_inner();
+        let enclosed = |ring: LineString| {
+            let empty = MultiPolygon::<f64>::new(Vec::new());
+            MultiPolygon::new(vec![Polygon::new(ring, Vec::new())]).union(&empty)
+        };
+        let courts = courts.into_iter().map(enclosed);
+        let built = courts.fold(enclosed(exterior), |built, court| built.difference(&court));
+        mended.extend(built.0);
     }
     if invalid {
         how.push(
-            "a ring that crosses or touches itself: the largest part that it encloses is kept"
+            "a ring that crosses or touches itself or another: the largest part that it encloses is kept"
                 .to_owned(),
         );
     }
     let Some(chosen) = largest(mended) else {
         return (None, None);
     };
-    let (exterior, _) = chosen.into_inner();
-    let chosen = Polygon::new(LineString::new(exterior.0), Vec::new());
     if chosen.unsigned_area() <= 0.0 {
         return (None, None);
     }

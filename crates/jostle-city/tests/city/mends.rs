@@ -189,3 +189,36 @@ fn geometries_within_geometries_without_end_are_refused() {
     assert!((inventory.buildings[0].area - 100.0).abs() < 1e-9);
     assert_eq!(inventory.mends.len(), 2);
 }
+
+/// A ring of 40 m around a court of 30 m, one building inside it beside the western wall, and one outside beside the eastern wall; a court
+/// that crosses the edge of its building is taken away from it.
+#[test]
+fn courts_are_no_area_and_their_walls_face_what_stands_inside() {
+    let text = "id,storeys,wkt\n\
+        ring,4,\"POLYGON((0 0, 40 0, 40 40, 0 40, 0 0),(5 5, 35 5, 35 35, 5 35, 5 5))\"\n\
+        inside,4,\"POLYGON((5.1 10, 20 10, 20 30, 5.1 30, 5.1 10))\"\n\
+        outside,4,\"POLYGON((40.2 0, 52 0, 52 30, 40.2 30, 40.2 0))\"\n\
+        open,4,\"POLYGON((100 0, 120 0, 120 20, 100 20, 100 0),(110 5, 130 5, 130 15, 110 15, 110 5))\"\n";
+    let inventory = read("courts.csv", text).unwrap();
+    let areas: Vec<f64> = (inventory.buildings.iter())
+        .map(|building| building.area)
+        .collect();
+    for (area, due) in areas.iter().zip([700.0, 298.0, 354.0, 300.0]) {
+        assert!((area - due).abs() < 1e-9, "{areas:?}");
+    }
+    assert_eq!(inventory.mends.len(), 1, "{:?}", inventory.mends);
+    let found = jostle_city::Neighbours::within(&inventory.buildings, 0.5);
+    assert!(found.overlaps.is_empty());
+    let pairs: Vec<_> = (found.pairs.iter())
+        .map(|pair| (pair.buildings, pair.distance, pair.face, pair.normal))
+        .collect();
+    assert_eq!(pairs.len(), 2, "{pairs:?}");
+    for ((buildings, distance, face, normal), due) in pairs
+        .into_iter()
+        .zip([([0, 1], 0.1, 20.0), ([0, 2], 0.2, 30.0)])
+    {
+        assert_eq!(buildings, due.0);
+        assert!((distance - due.1).abs() < 1e-9 && (face - due.2).abs() < 1e-9);
+        assert!(normal.abs() < 1e-9, "{normal}");
+    }
+}
