@@ -4,6 +4,7 @@ mod columns;
 mod csv_table;
 mod geojson_file;
 mod parquet_table;
+mod reference_system;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,11 +15,14 @@ use crate::building::Building;
 use crate::fault::CityError;
 use crate::mend::{Mend, repeats, whole};
 use crate::plane::Plane;
+use reference_system::Coordinates;
 
 pub use columns::{Attribute, Columns};
 
 /// Footprints below this are sheds and slivers \[m²\].
 pub(crate) const LEAST_AREA: f64 = 20.0;
+/// No city has buildings half of which are larger than this \[m²\].
+const GREATEST_MEDIAN: f64 = 1e6;
 
 /// A file of footprints, read and mended.
 #[derive(Clone, Debug)]
@@ -88,6 +92,7 @@ pub(crate) struct Gathered<'a> {
     path: &'a Path,
     options: &'a ReadOptions,
     plane: Option<Plane>,
+    coordinates: Coordinates,
     buildings: Vec<Building>,
     mends: Vec<Mend>,
     rows: usize,
@@ -101,6 +106,7 @@ impl<'a> Gathered<'a> {
             path,
             options,
             plane: options.metres.then_some(Plane::Metres),
+            coordinates: Coordinates::Unknown,
             buildings: Vec::new(),
             mends: Vec::new(),
             rows: 0,
@@ -112,6 +118,19 @@ impl<'a> Gathered<'a> {
     /// Names of the columns that may hold outlines.
     fn geometry_names(&self) -> Vec<String> {
         self.options.columns.names(Attribute::Footprint)
+    }
+
+    /// Takes the reference system that the file names, if it names one.
+    fn stand_in(&mut self, named: Option<(Coordinates, String)>) -> Result<(), CityError> {
+        let Some((coordinates, name)) = named else {
+            return Ok(());
+        };
+        self.coordinates = coordinates.agree(self.path, &name, self.options.metres)?;
+        if coordinates == Coordinates::WebMercator {
+            // Its metres are not true.
+            self.plane = None;
+        }
+        Ok(())
     }
 
     /// Takes a row.
@@ -203,6 +222,9 @@ impl<'a> Gathered<'a> {
                 return Ok(());
             }
         };
+        for part in &mut parts {
+            *part = part.map_coords(|at| self.coordinates.unprojected(at));
+        }
         let plane = match self.plane {
             Some(plane) => plane,
             None => {
@@ -282,6 +304,19 @@ impl<'a> Gathered<'a> {
                 "no column says how tall the buildings are: give storeys (such as \"storeys\", \"NumberOfStories\", \
                          \"building:levels\") or height in m (\"height\"), or name the column (--column storeys=NAME)",
             );
+        }
+        let of_degrees = matches!(self.plane, Some(Plane::Degrees { .. }));
+        let mut areas: Vec<f64> = (self.buildings.iter())
+            .map(|building| building.area)
+            .collect();
+        areas.sort_by(f64::total_cmp);
+        let median = areas[areas.len() / 2];
+        if of_degrees && median > GREATEST_MEDIAN {
+            return fault(&format!(
+                "read as degrees of longitude and latitude, half of the buildings cover more than {:.0} km² each; if the coordinates are \
+                 metres, say so (--metres, or metres = true in the city file)",
+                1e-6 * median
+            ));
         }
         self.mends.extend(repeats(&mut self.buildings));
         self.mends.sort_by_key(|mend| mend.row);

@@ -222,3 +222,65 @@ fn courts_are_no_area_and_their_walls_face_what_stands_inside() {
         assert!(normal.abs() < 1e-9, "{normal}");
     }
 }
+
+/// Two houses of 10 m, 0.1 m apart, in Web Mercator at 37.77° north, as UTM, in feet, and as metres that nobody calls metres.
+#[test]
+fn reference_systems_are_followed_or_refused_by_name() {
+    let write = |crs: &str, [x, y]: [f64; 2], scale: f64| {
+        let house = |id: &str, from: f64| {
+            let corners = [
+                [0.0, 0.0],
+                [10.0, 0.0],
+                [10.0, 10.0],
+                [0.0, 10.0],
+                [0.0, 0.0],
+            ];
+            let corners =
+                corners.map(|[a, b]| format!("[{},{}]", x + scale * (from + a), y + scale * b));
+            format!(
+                "{{\"type\":\"Feature\",\"properties\":{{\"id\":\"{id}\",\"storeys\":2}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[{}]]}}}}",
+                corners.join(",")
+            )
+        };
+        let features = format!("[{},{}]", house("a", 0.0), house("b", 10.1));
+        // Behind the features as well as before them.
+        format!("{{\"type\":\"FeatureCollection\",\"features\":{features}{crs}}}")
+    };
+    let named = |name: &str| {
+        format!(",\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{name}\"}}}}")
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("city.geojson");
+    let read = |text: String, metres: bool| {
+        std::fs::write(&path, text).unwrap();
+        let options = ReadOptions {
+            metres,
+            ..ReadOptions::default()
+        };
+        Inventory::read(&path, &options).map_err(|error| error.to_string())
+    };
+    // Longitude -122.42, latitude 37.7749, where lengths are 1.263 to 1.27 times as long. PROJ and its geodesic polygon give 99.5562 m².
+    let mercator = [-13_627_732.06, 4_547_675.35];
+    for metres in [false, true] {
+        let text = write(&named("urn:ogc:def:crs:EPSG::3857"), mercator, 1.2634);
+        let inventory = read(text, metres).unwrap();
+        let area = inventory.buildings[0].area;
+        assert!((area - 99.5562).abs() < 1e-4, "{area}");
+    }
+    let utm = named("urn:ogc:def:crs:EPSG::32633");
+    let inventory = read(write(&utm, [50.0, 40.0], 1.0), true).unwrap();
+    assert!((inventory.buildings[0].area - 100.0).abs() < 1e-9);
+    let degrees = named("urn:ogc:def:crs:OGC:1.3:CRS84");
+    assert!(read(write(&degrees, [20.0, 40.0], 1e-5), false).is_ok());
+    for (crs, metres, wanted) in [
+        (utm.clone(), false, "are metres: say so (--metres"),
+        (degrees, true, "leave out --metres"),
+        (named("urn:ogc:def:crs:EPSG::2227"), true, "EPSG::2227"),
+        (",\"crs\":null".to_owned(), false, "no known system"),
+        (String::new(), false, "--metres"),
+    ] {
+        let error = read(write(&crs, [0.0, 0.0], 1.0), metres).expect_err(wanted);
+        assert!(error.contains(wanted), "{error}");
+    }
+    assert!(read(write(",\"crs\":null", [0.0, 0.0], 1.0), true).is_ok());
+}
