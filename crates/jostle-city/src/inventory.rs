@@ -35,8 +35,8 @@ pub struct Inventory {
     pub mends: Vec<Mend>,
     /// Rows read.
     pub rows: usize,
-    /// Which column gave an attribute.
-    pub columns: BTreeMap<Attribute, String>,
+    /// Which columns gave an attribute, each in the rows where those before it have nothing.
+    pub columns: BTreeMap<Attribute, Vec<String>>,
 }
 
 /// One row of a file as its reader gives it.
@@ -97,7 +97,7 @@ pub(crate) struct Gathered<'a> {
     mends: Vec<Mend>,
     rows: usize,
     points: usize,
-    columns: BTreeMap<Attribute, String>,
+    columns: BTreeMap<Attribute, Vec<String>>,
 }
 
 impl<'a> Gathered<'a> {
@@ -147,15 +147,23 @@ impl<'a> Gathered<'a> {
             year: None,
             kind: None,
         };
-        for (name, text) in &record.fields {
-            let Some(attribute) = self.options.columns.attribute(name) else {
+        // Of several columns for an attribute the first of the list that has a value in this row counts.
+        let mut given: BTreeMap<Attribute, (usize, &(String, String))> = BTreeMap::new();
+        for field in &record.fields {
+            let Some((attribute, rank)) = self.options.columns.attribute(&field.0) else {
                 continue;
             };
-            self.columns
-                .entry(attribute)
-                .or_insert_with(|| name.clone());
-            if self.columns.get(&attribute) != Some(name) {
-                continue;
+            let first = given
+                .get(&attribute)
+                .is_none_or(|(known, _)| rank <= *known);
+            if first {
+                given.insert(attribute, (rank, field));
+            }
+        }
+        for (attribute, (_, (name, text))) in given {
+            let known = self.columns.entry(attribute).or_default();
+            if !known.contains(name) {
+                known.push(name.clone());
             }
             let number = || {
                 let text = text.trim();

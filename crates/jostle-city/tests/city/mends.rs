@@ -284,3 +284,25 @@ fn reference_systems_are_followed_or_refused_by_name() {
     }
     assert!(read(write(",\"crs\":null", [0.0, 0.0], 1.0), true).is_ok());
 }
+
+/// Rows of different origin name an attribute differently: each row has the first of the usual names that has a value there.
+#[test]
+fn columns_of_an_attribute_count_row_by_row() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"", y = x + 10);
+    let rows = [
+        ("1", ",,4", 0),
+        ("2", "3,12.5,", 20),
+        ("3", ",,", 40),
+        ("4", "3,,9", 60),
+    ];
+    let rows = rows.map(|(id, given, x)| format!("{id},{given},{}\n", square(x)));
+    let text = format!(
+        "id,storeys,roof_height,building:levels,wkt\n{}",
+        rows.concat()
+    );
+    let inventory = read("mixed.csv", &text).unwrap();
+    let storeys: Vec<_> = inventory.buildings.iter().map(|one| one.storeys).collect();
+    assert_eq!(storeys, [Some(4), Some(3), None, Some(3)]);
+    let named = &inventory.columns[&jostle_city::Attribute::Storeys];
+    assert_eq!(*named, ["building:levels", "storeys"]);
+}
