@@ -13,7 +13,7 @@ use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
 
 use crate::building::Building;
 use crate::fault::CityError;
-use crate::mend::{Mend, repeats, whole};
+use crate::mend::{Mend, named_apart, repeats, whole};
 use crate::plane::Plane;
 use reference_system::Coordinates;
 
@@ -327,6 +327,7 @@ impl<'a> Gathered<'a> {
             ));
         }
         self.mends.extend(repeats(&mut self.buildings));
+        self.mends.extend(named_apart(&mut self.buildings));
         self.mends.sort_by_key(|mend| mend.row);
         let unknown =
             |building: &&Building| building.storeys.is_none() && building.height.is_none();

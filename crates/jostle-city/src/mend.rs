@@ -1,6 +1,6 @@
 //! Outlines that are no simple polygons, and buildings that are listed twice.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use geo::{
     Area, BooleanOps, Centroid, CoordsIter, LineString, MultiPolygon, Orient, Polygon, Validation,
@@ -18,7 +18,7 @@ pub struct Mend {
     pub id: String,
     /// Row of the inventory, from 1.
     pub row: usize,
-    /// `mended`, `left out`, `repeat`, `assumed` or `no outline`.
+    /// `mended`, `left out`, `repeat`, `renamed`, `assumed` or `no outline`.
     pub what: &'static str,
     /// How, and why.
     pub detail: String,
@@ -71,6 +71,32 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     }
     let chosen = chosen.orient(geo::orient::Direction::Default);
     (Some(chosen), (!how.is_empty()).then(|| how.join("; ")))
+}
+
+/// Gives a building with the name of one before it a name of its own: tables, pairs and draws go by names.
+pub(crate) fn named_apart(buildings: &mut [Building]) -> Vec<Mend> {
+    let mut all: HashSet<String> = buildings.iter().map(|one| one.id.clone()).collect();
+    let mut first: HashMap<String, usize> = HashMap::new();
+    let mut mends = Vec::new();
+    for building in buildings {
+        let Some(known) = first.get(&building.id) else {
+            first.insert(building.id.clone(), building.row);
+            continue;
+        };
+        let mut name = format!("{}#{}", building.id, building.row);
+        while !all.insert(name.clone()) {
+            name.push('#');
+        }
+        let detail = format!("\"{}\" is the id of row {known} too", building.id);
+        building.id = name;
+        mends.push(Mend {
+            id: building.id.clone(),
+            row: building.row,
+            what: "renamed",
+            detail,
+        });
+    }
+    mends
 }
 
 /// Removes buildings that stand where one before them stands: same middle and area within a centimetre.

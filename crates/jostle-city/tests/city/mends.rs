@@ -306,3 +306,24 @@ fn columns_of_an_attribute_count_row_by_row() {
     let named = &inventory.columns[&jostle_city::Attribute::Storeys];
     assert_eq!(*named, ["building:levels", "storeys"]);
 }
+
+/// Buildings with one id get names of their own, which no other building has.
+#[test]
+fn ids_given_more_than_once_are_told_apart() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"", y = x + 10);
+    let ids = ["a", "b", "a", "a#3", "a"];
+    let rows = ids
+        .iter()
+        .zip(0..)
+        .map(|(id, n)| format!("{id},2,{}\n", square(20 * n)));
+    let text = format!("id,storeys,wkt\n{}", rows.collect::<String>());
+    let inventory = read("ids.csv", &text).unwrap();
+    let names: Vec<_> = inventory.buildings.iter().map(|one| &one.id[..]).collect();
+    assert_eq!(names, ["a", "b", "a#3#", "a#3", "a#5"]);
+    let told: Vec<_> = inventory
+        .mends
+        .iter()
+        .map(|mend| (mend.row, mend.what))
+        .collect();
+    assert_eq!(told, [(3, "renamed"), (5, "renamed")]);
+}
