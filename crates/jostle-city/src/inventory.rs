@@ -147,6 +147,7 @@ impl<'a> Gathered<'a> {
             year: None,
             kind: None,
         };
+        let mut unread = None;
         // Of several columns for an attribute the first of the list that has a value in this row counts.
         let mut given: BTreeMap<Attribute, (usize, &(String, String))> = BTreeMap::new();
         for field in &record.fields {
@@ -193,12 +194,10 @@ impl<'a> Gathered<'a> {
                     building.height = Some(number()?).filter(|number| *number > 0.0);
                 }
                 Attribute::Year => {
-                    // A date such as 1931-05 is a year too.
-                    let year = text
-                        .trim()
-                        .get(..4)
-                        .and_then(|digits| digits.parse::<i32>().ok());
-                    building.year = year.filter(|year| *year > 0);
+                    building.year = year_of(text);
+                    if building.year.is_none() {
+                        unread = Some(text.trim().to_owned());
+                    }
                 }
             }
         }
@@ -210,6 +209,12 @@ impl<'a> Gathered<'a> {
                 detail,
             });
         };
+        if let Some(text) = unread {
+            noted(
+                "no year",
+                format!("a year has four digits, found \"{text}\""),
+            );
+        }
         let geometry = match record.geometry {
             Ok(geometry) => geometry,
             Err(problem) => {
@@ -347,6 +352,22 @@ impl<'a> Gathered<'a> {
             columns: self.columns,
         })
     }
+}
+
+/// The first year from 1000 to 2199 of a text: four digits by themselves, or the beginning of a date of eight.
+fn year_of(text: &str) -> Option<i32> {
+    let digits = text.split(|letter: char| !letter.is_ascii_digit());
+    let mut years = digits.filter_map(|digits| {
+        let day = digits.get(4..).unwrap_or("");
+        let is_date = || {
+            let [month, day] = [day.get(..2)?, day.get(2..)?].map(|part| part.parse().unwrap_or(0));
+            ((1..=12).contains(&month) && (1..=31).contains(&day)).then_some(())
+        };
+        let alone = day.is_empty() || (day.len() == 4 && is_date().is_some());
+        let year: i32 = digits.get(..4).filter(|_| alone)?.parse().ok()?;
+        (1000..2200).contains(&year).then_some(year)
+    });
+    years.next()
 }
 
 /// The middle of all buildings \[m\].

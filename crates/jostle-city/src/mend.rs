@@ -18,7 +18,7 @@ pub struct Mend {
     pub id: String,
     /// Row of the inventory, from 1.
     pub row: usize,
-    /// `mended`, `left out`, `repeat`, `renamed`, `assumed` or `no outline`.
+    /// `mended`, `left out`, `repeat`, `renamed`, `no year`, `assumed` or `no outline`.
     pub what: &'static str,
     /// How, and why.
     pub detail: String,

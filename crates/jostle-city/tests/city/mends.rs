@@ -327,3 +327,40 @@ fn ids_given_more_than_once_are_told_apart() {
         .collect();
     assert_eq!(told, [(3, "renamed"), (5, "renamed")]);
 }
+
+/// Years are read wherever they stand in a date; what has none is told.
+#[test]
+fn years_are_read_anywhere_in_a_date() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"", y = x + 10);
+    let given = [
+        ("1975", Some(1975)),
+        ("1975.0", Some(1975)),
+        ("12/05/1975", Some(1975)),
+        ("1931-05", Some(1931)),
+        ("c. 1900", Some(1900)),
+        ("1850s", Some(1850)),
+        ("19750312", Some(1975)),
+        ("2001-02-03T00:00:00Z", Some(2001)),
+        ("75", None),
+        ("12051975", None),
+        ("9999", None),
+        ("0", None),
+        ("unknown", None),
+    ];
+    let rows = given
+        .iter()
+        .zip(0..)
+        .map(|((year, _), n)| format!("{n},2,{year},{}\n", square(20 * n)));
+    let text = format!(
+        "id,storeys,year,wkt\n{}99,2,,{}\n",
+        rows.collect::<String>(),
+        square(2000)
+    );
+    let inventory = read("years.csv", &text).unwrap();
+    for (building, (text, due)) in inventory.buildings.iter().zip(given) {
+        assert_eq!(building.year, due, "{text}");
+    }
+    // A row without anything there has no year, and needs no word.
+    let told = inventory.mends.iter().filter(|mend| mend.what == "no year");
+    assert_eq!(told.count(), 5);
+}
