@@ -5,6 +5,9 @@ use geo::Polygon;
 /// Height of a storey where only the height of the building is known \[m\].
 pub(crate) const STOREY: f64 = 3.2;
 
+/// Heights of a storey that a building may have \[m\].
+pub(crate) const STOREYS: std::ops::RangeInclusive<f64> = 2.2..=6.0;
+
 /// A building of a city.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Building {
@@ -18,7 +21,7 @@ pub struct Building {
     pub area: f64,
     /// Storeys above the ground, where known.
     pub storeys: Option<usize>,
-    /// Height above the ground, where known \[m\].
+    /// Height above the ground, where it is known and gives storeys of 2.2 m to 6 m \[m\].
     pub height: Option<f64>,
     /// Year of construction, where known.
     pub year: Option<i32>,

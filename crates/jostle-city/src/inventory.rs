@@ -13,7 +13,7 @@ use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
 
 use crate::building::Building;
 use crate::fault::CityError;
-use crate::mend::{Mend, named_apart, repeats, whole};
+use crate::mend::{Mend, named_apart, repeats, unlikely_heights, whole};
 use crate::plane::Plane;
 use reference_system::Coordinates;
 
@@ -344,6 +344,7 @@ impl<'a> Gathered<'a> {
                 detail: "1 storey: neither storeys nor height are given".into(),
             });
         }
+        self.mends.extend(unlikely_heights(&mut self.buildings));
         Ok(Inventory {
             buildings: self.buildings,
             plane: self.plane.unwrap_or(Plane::Metres),

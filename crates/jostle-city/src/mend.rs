@@ -6,7 +6,7 @@ use geo::{
     Area, BooleanOps, Centroid, CoordsIter, LineString, MultiPolygon, Orient, Polygon, Validation,
 };
 
-use crate::building::Building;
+use crate::building::{Building, STOREYS};
 
 /// Corners above which an outline is mended without asking whether it must be.
 const LONG: usize = 1000;
@@ -18,7 +18,7 @@ pub struct Mend {
     pub id: String,
     /// Row of the inventory, from 1.
     pub row: usize,
-    /// `mended`, `left out`, `repeat`, `renamed`, `no year`, `assumed` or `no outline`.
+    /// `mended`, `left out`, `repeat`, `renamed`, `no year`, `no height`, `assumed` or `no outline`.
     pub what: &'static str,
     /// How, and why.
     pub detail: String,
@@ -94,6 +94,35 @@ pub(crate) fn named_apart(buildings: &mut [Building]) -> Vec<Mend> {
             row: building.row,
             what: "renamed",
             detail,
+        });
+    }
+    mends
+}
+
+/// Leaves out heights that give no storey, such as those in feet: neither floors nor pairs can go by them.
+pub(crate) fn unlikely_heights(buildings: &mut [Building]) -> Vec<Mend> {
+    let mut mends = Vec::new();
+    for building in buildings {
+        let storeys = building.likely_storeys();
+        let Some(height) = building.height else {
+            continue;
+        };
+        let storey = height / storeys as f64;
+        if STOREYS.contains(&storey) {
+            continue;
+        }
+        building.height = None;
+        building.storeys = Some(storeys);
+        let [least, most] = [STOREYS.start(), STOREYS.end()];
+        mends.push(Mend {
+            id: building.id.clone(),
+            row: building.row,
+            what: "no height",
+            detail: format!(
+                "{height} m for {storeys} storey{} give {storey:.2} m each, not {least} m to {most} m: the height is left out; \
+                 heights must be in m",
+                if storeys == 1 { "" } else { "s" }
+            ),
         });
     }
     mends

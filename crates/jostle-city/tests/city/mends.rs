@@ -364,3 +364,35 @@ fn years_are_read_anywhere_in_a_date() {
     let told = inventory.mends.iter().filter(|mend| mend.what == "no year");
     assert_eq!(told.count(), 5);
 }
+
+/// Heights that give no storey, such as 33 ft of three storeys, are left out with a word; pairs go by storeys then.
+#[test]
+fn heights_that_give_no_storey_are_left_out() {
+    let square = |x: f64| {
+        let y = x + 10.0;
+        format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"")
+    };
+    let rows = [
+        ("feet", "3,33"),
+        ("metres", "3,9.6"),
+        ("alone", ",14"),
+        ("shed", ",1.5"),
+    ];
+    let rows = rows
+        .iter()
+        .zip(0..)
+        .map(|((id, given), n)| format!("{id},{given},{}\n", square(10.1 * f64::from(n))));
+    let text = format!("id,storeys,height,wkt\n{}", rows.collect::<String>());
+    let inventory = read("heights.csv", &text).unwrap();
+    let heights: Vec<_> = inventory.buildings.iter().map(|one| one.height).collect();
+    assert_eq!(heights, [None, Some(9.6), Some(14.0), None]);
+    let told: Vec<_> = inventory
+        .mends
+        .iter()
+        .map(|mend| (mend.row, mend.what))
+        .collect();
+    assert_eq!(told, [(1, "no height"), (4, "no height")]);
+    let found = jostle_city::Neighbours::within(&inventory.buildings, 0.5);
+    assert!((found.pairs[0].height_ratio - 1.0).abs() < 1e-12);
+    assert!(found.pairs[0].floor_offset.abs() < 1e-12);
+}

@@ -323,3 +323,29 @@ fn models_of_pairs_repeat_what_the_city_ran() {
     }
     assert!(compared > 4, "{compared}");
 }
+
+/// Of two buildings of 14 m one has four storeys and the other no number of them: floors of both stand at 3.5 m.
+#[test]
+fn floors_stand_by_the_height_with_or_without_storeys() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = |from: f64| {
+        let to = from + 10.0;
+        format!("\"POLYGON(({from} 0,{to} 0,{to} 10,{from} 10,{from} 0))\"")
+    };
+    let text = format!(
+        "id,storeys,height,wkt\na,4,14,{}\nb,,14,{}\n",
+        square(0.0),
+        square(10.1)
+    );
+    std::fs::write(folder.path().join("two.csv"), text).unwrap();
+    let text = "[inventory]\nfile = \"two.csv\"\nmetres = true\n[buildings]\ntype = \"C1\"\n[motion]\nrecord = \"el-centro-1940-ns\"\n";
+    let file = CityFile::parse("city.toml", text, Format::Toml, folder.path()).unwrap();
+    let model = City::new(file).unwrap().model(0, 0, 0).unwrap();
+    let heights: Vec<&str> = (model.lines())
+        .filter(|line| line.starts_with("storey_height"))
+        .collect();
+    assert_eq!(
+        heights,
+        vec!["storey_height = [\"3.5 m\", \"3.5 m\", \"3.5 m\", \"3.5 m\"]"; 2]
+    );
+}
