@@ -1,6 +1,7 @@
 //! A building of an inventory.
 
 use geo::Polygon;
+use jostle_classes::Level;
 
 /// Height of a storey where only the height of the building is known \[m\].
 pub(crate) const STOREY: f64 = 3.2;
@@ -25,6 +26,8 @@ pub struct Building {
     pub height: Option<f64>,
     /// Year of construction, where known.
     pub year: Option<i32>,
+    /// Level of the code by which it was designed, where its type says it.
+    pub level: Option<Level>,
     /// Structural type as the inventory names it.
     pub kind: Option<String>,
 }

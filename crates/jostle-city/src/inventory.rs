@@ -11,6 +11,8 @@ use std::path::Path;
 
 use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
 
+use jostle_classes::GemFacts;
+
 use crate::building::Building;
 use crate::fault::CityError;
 use crate::mend::{Mend, named_apart, repeats, unlikely_heights, whole};
@@ -145,6 +147,7 @@ impl<'a> Gathered<'a> {
             storeys: None,
             height: None,
             year: None,
+            level: None,
             kind: None,
         };
         let mut unread = None;
@@ -201,6 +204,14 @@ impl<'a> Gathered<'a> {
                 }
             }
         }
+        let facts = building
+            .kind
+            .as_deref()
+            .map(GemFacts::of)
+            .unwrap_or_default();
+        building.level = facts.level;
+        building.storeys = building.storeys.or(facts.storeys);
+        building.year = building.year.or(facts.year);
         let mut noted = |what: &'static str, detail: String| {
             self.mends.push(Mend {
                 id: building.id.clone(),
@@ -310,7 +321,11 @@ impl<'a> Gathered<'a> {
         if self.buildings.is_empty() {
             return fault("no row has an outline of a building of 20 m² or more");
         }
-        if !self.columns.contains_key(&Attribute::Storeys)
+        if self
+            .buildings
+            .iter()
+            .all(|building| building.storeys.is_none())
+            && !self.columns.contains_key(&Attribute::Storeys)
             && !self.columns.contains_key(&Attribute::Height)
         {
             return fault(

@@ -113,7 +113,7 @@ pub(crate) fn structures(
                 .year
                 .map_or(Level::Moderate, |year| Level::in_year(year, &since))
         };
-        let level = fixed.unwrap_or_else(by_year);
+        let level = fixed.or(building.level).unwrap_or_else(by_year);
         let kind = building.kind.as_deref().unwrap_or(&file.kind);
         let class = types
             .of(kind, storeys, level)
