@@ -4,21 +4,27 @@ mod columns;
 mod csv_table;
 mod geojson_file;
 mod parquet_table;
+mod reference_system;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
 
+use jostle_classes::GemFacts;
+
 use crate::building::Building;
 use crate::fault::CityError;
-use crate::mend::{Mend, repeats, whole};
+use crate::mend::{Mend, named_apart, repeats, unlikely_heights, whole};
 use crate::plane::Plane;
+use reference_system::Coordinates;
 
 pub use columns::{Attribute, Columns};
 
 /// Footprints below this are sheds and slivers \[m²\].
 pub(crate) const LEAST_AREA: f64 = 20.0;
+/// No city has buildings half of which are larger than this \[m²\].
+const GREATEST_MEDIAN: f64 = 1e6;
 
 /// A file of footprints, read and mended.
 #[derive(Clone, Debug)]
@@ -31,8 +37,8 @@ pub struct Inventory {
     pub mends: Vec<Mend>,
     /// Rows read.
     pub rows: usize,
-    /// Which column gave an attribute.
-    pub columns: BTreeMap<Attribute, String>,
+    /// Which columns gave an attribute, each in the rows where those before it have nothing.
+    pub columns: BTreeMap<Attribute, Vec<String>>,
 }
 
 /// One row of a file as its reader gives it.
@@ -88,11 +94,12 @@ pub(crate) struct Gathered<'a> {
     path: &'a Path,
     options: &'a ReadOptions,
     plane: Option<Plane>,
+    coordinates: Coordinates,
     buildings: Vec<Building>,
     mends: Vec<Mend>,
     rows: usize,
     points: usize,
-    columns: BTreeMap<Attribute, String>,
+    columns: BTreeMap<Attribute, Vec<String>>,
 }
 
 impl<'a> Gathered<'a> {
@@ -101,6 +108,7 @@ impl<'a> Gathered<'a> {
             path,
             options,
             plane: options.metres.then_some(Plane::Metres),
+            coordinates: Coordinates::Unknown,
             buildings: Vec::new(),
             mends: Vec::new(),
             rows: 0,
@@ -112,6 +120,19 @@ impl<'a> Gathered<'a> {
     /// Names of the columns that may hold outlines.
     fn geometry_names(&self) -> Vec<String> {
         self.options.columns.names(Attribute::Footprint)
+    }
+
+    /// Takes the reference system that the file names, if it names one.
+    fn stand_in(&mut self, named: Option<(Coordinates, String)>) -> Result<(), CityError> {
+        let Some((coordinates, name)) = named else {
+            return Ok(());
+        };
+        self.coordinates = coordinates.agree(self.path, &name, self.options.metres)?;
+        if coordinates == Coordinates::WebMercator {
+            // Its metres are not true.
+            self.plane = None;
+        }
+        Ok(())
     }
 
     /// Takes a row.
@@ -126,17 +147,27 @@ impl<'a> Gathered<'a> {
             storeys: None,
             height: None,
             year: None,
+            level: None,
             kind: None,
         };
-        for (name, text) in &record.fields {
-            let Some(attribute) = self.options.columns.attribute(name) else {
+        let mut unread = None;
+        // Of several columns for an attribute the first of the list that has a value in this row counts.
+        let mut given: BTreeMap<Attribute, (usize, &(String, String))> = BTreeMap::new();
+        for field in &record.fields {
+            let Some((attribute, rank)) = self.options.columns.attribute(&field.0) else {
                 continue;
             };
-            self.columns
-                .entry(attribute)
-                .or_insert_with(|| name.clone());
-            if self.columns.get(&attribute) != Some(name) {
-                continue;
+            let first = given
+                .get(&attribute)
+                .is_none_or(|(known, _)| rank <= *known);
+            if first {
+                given.insert(attribute, (rank, field));
+            }
+        }
+        for (attribute, (_, (name, text))) in given {
+            let known = self.columns.entry(attribute).or_default();
+            if !known.contains(name) {
+                known.push(name.clone());
             }
             let number = || {
                 let text = text.trim();
@@ -166,15 +197,21 @@ impl<'a> Gathered<'a> {
                     building.height = Some(number()?).filter(|number| *number > 0.0);
                 }
                 Attribute::Year => {
-                    // A date such as 1931-05 is a year too.
-                    let year = text
-                        .trim()
-                        .get(..4)
-                        .and_then(|digits| digits.parse::<i32>().ok());
-                    building.year = year.filter(|year| *year > 0);
+                    building.year = year_of(text);
+                    if building.year.is_none() {
+                        unread = Some(text.trim().to_owned());
+                    }
                 }
             }
         }
+        let facts = building
+            .kind
+            .as_deref()
+            .map(GemFacts::of)
+            .unwrap_or_default();
+        building.level = facts.level;
+        building.storeys = building.storeys.or(facts.storeys);
+        building.year = building.year.or(facts.year);
         let mut noted = |what: &'static str, detail: String| {
             self.mends.push(Mend {
                 id: building.id.clone(),
@@ -183,6 +220,12 @@ impl<'a> Gathered<'a> {
                 detail,
             });
         };
+        if let Some(text) = unread {
+            noted(
+                "no year",
+                format!("a year has four digits, found \"{text}\""),
+            );
+        }
         let geometry = match record.geometry {
             Ok(geometry) => geometry,
             Err(problem) => {
@@ -203,6 +246,9 @@ impl<'a> Gathered<'a> {
                 return Ok(());
             }
         };
+        for part in &mut parts {
+            *part = part.map_coords(|at| self.coordinates.unprojected(at));
+        }
         let plane = match self.plane {
             Some(plane) => plane,
             None => {
@@ -275,7 +321,11 @@ impl<'a> Gathered<'a> {
         if self.buildings.is_empty() {
             return fault("no row has an outline of a building of 20 m² or more");
         }
-        if !self.columns.contains_key(&Attribute::Storeys)
+        if self
+            .buildings
+            .iter()
+            .all(|building| building.storeys.is_none())
+            && !self.columns.contains_key(&Attribute::Storeys)
             && !self.columns.contains_key(&Attribute::Height)
         {
             return fault(
@@ -283,7 +333,21 @@ impl<'a> Gathered<'a> {
                          \"building:levels\") or height in m (\"height\"), or name the column (--column storeys=NAME)",
             );
         }
+        let of_degrees = matches!(self.plane, Some(Plane::Degrees { .. }));
+        let mut areas: Vec<f64> = (self.buildings.iter())
+            .map(|building| building.area)
+            .collect();
+        areas.sort_by(f64::total_cmp);
+        let median = areas[areas.len() / 2];
+        if of_degrees && median > GREATEST_MEDIAN {
+            return fault(&format!(
+                "read as degrees of longitude and latitude, half of the buildings cover more than {:.0} km² each; if the coordinates are \
+                 metres, say so (--metres, or metres = true in the city file)",
+                1e-6 * median
+            ));
+        }
         self.mends.extend(repeats(&mut self.buildings));
+        self.mends.extend(named_apart(&mut self.buildings));
         self.mends.sort_by_key(|mend| mend.row);
         let unknown =
             |building: &&Building| building.storeys.is_none() && building.height.is_none();
@@ -295,6 +359,7 @@ impl<'a> Gathered<'a> {
                 detail: "1 storey: neither storeys nor height are given".into(),
             });
         }
+        self.mends.extend(unlikely_heights(&mut self.buildings));
         Ok(Inventory {
             buildings: self.buildings,
             plane: self.plane.unwrap_or(Plane::Metres),
@@ -303,6 +368,22 @@ impl<'a> Gathered<'a> {
             columns: self.columns,
         })
     }
+}
+
+/// The first year from 1000 to 2199 of a text: four digits by themselves, or the beginning of a date of eight.
+fn year_of(text: &str) -> Option<i32> {
+    let digits = text.split(|letter: char| !letter.is_ascii_digit());
+    let mut years = digits.filter_map(|digits| {
+        let day = digits.get(4..).unwrap_or("");
+        let is_date = || {
+            let [month, day] = [day.get(..2)?, day.get(2..)?].map(|part| part.parse().unwrap_or(0));
+            ((1..=12).contains(&month) && (1..=31).contains(&day)).then_some(())
+        };
+        let alone = day.is_empty() || (day.len() == 4 && is_date().is_some());
+        let year: i32 = digits.get(..4).filter(|_| alone)?.parse().ok()?;
+        (1000..2200).contains(&year).then_some(year)
+    });
+    years.next()
 }
 
 /// The middle of all buildings \[m\].

@@ -1,10 +1,12 @@
 //! Outlines that are no simple polygons, and buildings that are listed twice.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use geo::{Area, BooleanOps, Centroid, LineString, MultiPolygon, Orient, Polygon, Validation};
+use geo::{
+    Area, BooleanOps, Centroid, CoordsIter, LineString, MultiPolygon, Orient, Polygon, Validation,
+};
 
-use crate::building::Building;
+use crate::building::{Building, STOREYS};
 
 /// Corners above which an outline is mended without asking whether it must be.
 const LONG: usize = 1000;
@@ -16,13 +18,13 @@ pub struct Mend {
     pub id: String,
     /// Row of the inventory, from 1.
     pub row: usize,
-    /// `mended`, `left out`, `repeat`, `assumed` or `no outline`.
+    /// `mended`, `left out`, `repeat`, `renamed`, `no year`, `no height`, `assumed` or `no outline`.
     pub what: &'static str,
     /// How, and why.
     pub detail: String,
 }
 
-/// The largest part of an outline without its courts, valid, anticlockwise; and how it was mended, if it was.
+/// The largest part of an outline with its courts, valid, anticlockwise; and how it was mended, if it was.
 pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let count = parts.len();
     let mut how = Vec::new();
@@ -38,35 +40,92 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let mut mended = Vec::new();
     let mut invalid = false;
     for part in parts {
-        let (exterior, _) = part.into_inner();
-        let outline = Polygon::new(exterior, Vec::new());
         // The check compares every wall with every other; the rule below does not.
-        let long = outline.exterior().0.len() > LONG;
-        if !long && outline.is_valid() {
-            mended.push(outline);
+        let long = part.coords_count() > LONG;
+        if !long && part.is_valid() {
+            mended.push(part);
             continue;
         }
         invalid |= !long;
-        // The even–odd rule gives what the ring encloses.
-        let empty = MultiPolygon::<f64>::new(Vec::new());
-        mended.extend(MultiPolygon::new(vec![outline]).union(&empty).0);
+        // The even–odd rule gives what a ring encloses; courts are taken away from it, wherever they lie.
+        let (exterior, courts) = part.into_inner();
+        let enclosed = |ring: LineString| {
+            let empty = MultiPolygon::<f64>::new(Vec::new());
+            MultiPolygon::new(vec![Polygon::new(ring, Vec::new())]).union(&empty)
+        };
+        let courts = courts.into_iter().map(enclosed);
+        let built = courts.fold(enclosed(exterior), |built, court| built.difference(&court));
+        mended.extend(built.0);
     }
     if invalid {
         how.push(
-            "a ring that crosses or touches itself: the largest part that it encloses is kept"
+            "a ring that crosses or touches itself or another: the largest part that it encloses is kept"
                 .to_owned(),
         );
     }
     let Some(chosen) = largest(mended) else {
         return (None, None);
     };
-    let (exterior, _) = chosen.into_inner();
-    let chosen = Polygon::new(LineString::new(exterior.0), Vec::new());
     if chosen.unsigned_area() <= 0.0 {
         return (None, None);
     }
     let chosen = chosen.orient(geo::orient::Direction::Default);
     (Some(chosen), (!how.is_empty()).then(|| how.join("; ")))
+}
+
+/// Gives a building with the name of one before it a name of its own: tables, pairs and draws go by names.
+pub(crate) fn named_apart(buildings: &mut [Building]) -> Vec<Mend> {
+    let mut all: HashSet<String> = buildings.iter().map(|one| one.id.clone()).collect();
+    let mut first: HashMap<String, usize> = HashMap::new();
+    let mut mends = Vec::new();
+    for building in buildings {
+        let Some(known) = first.get(&building.id) else {
+            first.insert(building.id.clone(), building.row);
+            continue;
+        };
+        let mut name = format!("{}#{}", building.id, building.row);
+        while !all.insert(name.clone()) {
+            name.push('#');
+        }
+        let detail = format!("\"{}\" is the id of row {known} too", building.id);
+        building.id = name;
+        mends.push(Mend {
+            id: building.id.clone(),
+            row: building.row,
+            what: "renamed",
+            detail,
+        });
+    }
+    mends
+}
+
+/// Leaves out heights that give no storey, such as those in feet: neither floors nor pairs can go by them.
+pub(crate) fn unlikely_heights(buildings: &mut [Building]) -> Vec<Mend> {
+    let mut mends = Vec::new();
+    for building in buildings {
+        let storeys = building.likely_storeys();
+        let Some(height) = building.height else {
+            continue;
+        };
+        let storey = height / storeys as f64;
+        if STOREYS.contains(&storey) {
+            continue;
+        }
+        building.height = None;
+        building.storeys = Some(storeys);
+        let [least, most] = [STOREYS.start(), STOREYS.end()];
+        mends.push(Mend {
+            id: building.id.clone(),
+            row: building.row,
+            what: "no height",
+            detail: format!(
+                "{height} m for {storeys} storey{} give {storey:.2} m each, not {least} m to {most} m: the height is left out; \
+                 heights must be in m",
+                if storeys == 1 { "" } else { "s" }
+            ),
+        });
+    }
+    mends
 }
 
 /// Removes buildings that stand where one before them stands: same middle and area within a centimetre.

@@ -183,6 +183,12 @@ fn compare(left: &Building, right: &Building, reach: f64) -> Met {
     }
 }
 
+/// The walls of an outline and of its courts.
+fn walls(polygon: &Polygon) -> impl Iterator<Item = Line> {
+    let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
+    rings.flat_map(|ring| ring.lines())
+}
+
 /// Length over which walls face each other no farther apart than `reach`, and the outward direction of the first ones.
 fn facing(a: &Polygon, b: &Polygon, reach: f64) -> (f64, Option<f64>) {
     let (Some(box_a), Some(box_b)) = (a.bounding_rect(), b.bounding_rect()) else {
@@ -195,19 +201,15 @@ fn facing(a: &Polygon, b: &Polygon, reach: f64) -> (f64, Option<f64>) {
         within(rect.min().x, rect.max().x, other.min().x, other.max().x)
             && within(rect.min().y, rect.max().y, other.min().y, other.max().y)
     };
-    let edges_b: Vec<Line> = b
-        .exterior()
-        .lines()
-        .filter(|line| near(line, &box_a))
-        .collect();
+    let edges_b: Vec<Line> = walls(b).filter(|line| near(line, &box_a)).collect();
     let (mut face, mut sum) = (0.0, [0.0, 0.0]);
-    for edge in a.exterior().lines().filter(|line| near(line, &box_b)) {
+    for edge in walls(a).filter(|line| near(line, &box_b)) {
         let length = libm::hypot(edge.dx(), edge.dy());
         if length < 1e-6 {
             continue;
         }
         let along = [edge.dx() / length, edge.dy() / length];
-        // Outlines run anticlockwise, so outward is to the right.
+        // Outlines run anticlockwise and courts clockwise, so outward is to the right.
         let outward = [along[1], -along[0]];
         for other in &edges_b {
             let other_length = libm::hypot(other.dx(), other.dy());

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use geo::CoordsIter;
 use jostle_io::shown::{HEIGHT, LENGTH, MEGANEWTON};
 use jostle_io::{Values, csv_field, write_atomically};
 use maud::{Markup, html};
@@ -144,11 +143,13 @@ impl City {
         let mut text = String::from("{\"type\":\"FeatureCollection\",\"features\":[\n");
         for (at, building) in self.inventory.buildings.iter().enumerate() {
             let outline = self.inventory.plane.outline(&building.outline);
-            let mut ring = String::new();
-            for (corner, place) in outline.exterior_coords_iter().enumerate() {
-                let comma = if corner == 0 { "" } else { "," };
-                let _ = write!(ring, "{comma}[{:.8},{:.8}]", place.x, place.y);
-            }
+            let rings = std::iter::once(outline.exterior()).chain(outline.interiors());
+            let rings = rings.map(|ring| {
+                let corners =
+                    (ring.0.iter()).map(|place| format!("[{:.8},{:.8}]", place.x, place.y));
+                format!("[{}]", corners.collect::<Vec<_>>().join(","))
+            });
+            let rings = rings.collect::<Vec<_>>().join(",");
             let mut known = json!({ "id": building.id, "storeys": building.likely_storeys(), "class": *self.structures[at].class.name });
             if let Some(building) = &answers.buildings[at] {
                 let round = |value: f64| (value * 1e4).round() / 1e4;
@@ -162,7 +163,7 @@ impl City {
             let comma = if at == 0 { "" } else { ",\n" };
             let _ = write!(
                 text,
-                "{comma}{{\"type\":\"Feature\",\"properties\":{known},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[{ring}]]}}}}"
+                "{comma}{{\"type\":\"Feature\",\"properties\":{known},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[{rings}]}}}}"
             );
         }
         text.push_str("\n]}\n");
@@ -188,7 +189,12 @@ impl City {
             .map_or([0.0; 2], |extent| [extent.min().x, extent.min().y]);
         let (mut outlines, mut last) = (Vec::new(), [0_i64; 2]);
         for building in &self.inventory.buildings {
-            let ring: Vec<_> = building.outline.exterior().0.iter().skip(1).collect();
+            // Courts hang on the first corner: one line goes round all of them.
+            let first = building.outline.exterior().0.first();
+            let courts = building.outline.interiors().iter();
+            let courts = courts.flat_map(|court| court.0.iter().chain(first));
+            let ring = building.outline.exterior().0.iter().skip(1);
+            let ring: Vec<_> = ring.chain(courts).collect();
             number(&mut outlines, ring.len() as u64);
             for place in ring {
                 for (k, value) in [place.x, place.y].into_iter().enumerate() {

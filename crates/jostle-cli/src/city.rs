@@ -208,7 +208,7 @@ fn told(found: &Footprints) -> String {
     let named: Vec<String> = inventory
         .columns
         .iter()
-        .map(|(attribute, name)| format!("{} from \"{name}\"", attribute.name()))
+        .map(|(attribute, names)| format!("{} from \"{}\"", attribute.name(), names.join("\", \"")))
         .collect();
     let _ = writeln!(text, "  {}", named.join(", "));
     let known = |of: &dyn Fn(&jostle_city::Building) -> bool| {

@@ -209,7 +209,8 @@ fn counts(footprints: &Footprints) -> Value {
         pairs.filter(|pair| pair.position == position).count()
     };
     let columns = footprints.inventory.columns.iter();
-    let columns: HashMap<&str, &String> = columns.map(|(of, name)| (of.name(), name)).collect();
+    let columns: HashMap<&str, String> =
+        (columns.map(|(of, names)| (of.name(), names.join(", ")))).collect();
     json!({
         "rows": footprints.inventory.rows,
         "buildings": buildings.len(),

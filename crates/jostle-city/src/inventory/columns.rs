@@ -138,17 +138,17 @@ impl FromStr for Attribute {
 pub struct Columns(pub BTreeMap<Attribute, String>);
 
 impl Columns {
-    /// What a column says, by its name in any case.
-    pub(crate) fn attribute(&self, column: &str) -> Option<Attribute> {
+    /// What a column says, by its name in any case, and its place among the usual ones.
+    pub(crate) fn attribute(&self, column: &str) -> Option<(Attribute, usize)> {
         if let Some((attribute, _)) = self.0.iter().find(|(_, name)| name.as_str() == column) {
-            return Some(*attribute);
+            return Some((*attribute, 0));
         }
         let lower = column.trim().to_lowercase();
-        let usual = USUAL
-            .iter()
-            .find(|entry| entry.2.contains(&lower.as_str()))?
-            .0;
-        (!self.0.contains_key(&usual)).then_some(usual)
+        let mut usual = USUAL.iter();
+        usual.find_map(|(attribute, _, names)| {
+            let rank = names.iter().position(|name| *name == lower)?;
+            (!self.0.contains_key(attribute)).then_some((*attribute, rank))
+        })
     }
 
     /// Names that stand for an attribute.

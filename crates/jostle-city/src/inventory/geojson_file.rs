@@ -6,11 +6,13 @@ use std::path::Path;
 use geo::Geometry;
 use geojson::{Feature, FeatureReader, GeometryValue, JsonValue};
 
-use super::{Gathered, Record};
+use super::{Gathered, Record, reference_system};
 use crate::fault::CityError;
 
 pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
-    let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
+    let open = || jostle_io::open_file(path).map_err(|error| CityError::of(path, error));
+    gathered.stand_in(reference_system::of_geojson(path, open()?)?)?;
+    let file = open()?;
     for (at, feature) in FeatureReader::from_reader(BufReader::new(file))
         .features()
         .enumerate()

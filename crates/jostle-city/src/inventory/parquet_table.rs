@@ -9,7 +9,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value;
 
-use super::{Gathered, Record};
+use super::{Gathered, Record, reference_system};
 use crate::fault::CityError;
 
 pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
@@ -40,6 +40,10 @@ fn read_whole(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError>
         .and_then(|note| note.value);
     let geo: Option<Value> = geo.and_then(|geo| serde_json::from_str(&geo).ok());
     let primary = geo.as_ref().and_then(|geo| geo["primary_column"].as_str());
+    if let (Some(geo), Some(primary)) = (&geo, primary) {
+        let column = &geo["columns"][primary];
+        gathered.stand_in(reference_system::of_geoparquet(path, column)?)?;
+    }
     let names = match primary {
         Some(primary) => vec![primary.to_owned()],
         None => gathered.geometry_names(),

@@ -39,12 +39,27 @@ pub(super) fn read(
     let nearest = Nearest::of(sites, &points, reach, inventory, blocks)?;
     nearest.spread(blocks, place_of);
     let known: HashMap<&str, usize> = names.iter().map(String::as_str).zip(0..).collect();
+    if let Some((at, name)) = names
+        .iter()
+        .enumerate()
+        .find(|(at, name)| known[name.as_str()] != *at)
+    {
+        return Err(CityError::of(
+            sites,
+            format!(
+                "site {name} is given on rows {} and {}: keep one of them",
+                at + 1,
+                known[name.as_str()] + 1
+            ),
+        ));
+    }
     let place: HashMap<usize, usize> = nearest.used.iter().copied().zip(0..).collect();
 
     let mut periods: Vec<f64> = Vec::new();
     let mut columns: Vec<usize> = Vec::new();
     let mut events: BTreeMap<Event, usize> = BTreeMap::new();
     let mut values: Vec<(usize, usize, Vec<f64>)> = Vec::new();
+    let mut given: HashMap<(usize, usize), usize> = HashMap::new();
     let both = std::cell::RefCell::new((&mut periods, &mut columns));
     rows(
         path,
@@ -79,10 +94,20 @@ pub(super) fn read(
                 ));
             };
             let next = events.len();
+            let name = event;
             let event = *events.entry(Event::of(event)).or_insert(next);
             let Some(place) = place.get(site) else {
                 return Ok(());
             };
+            if let Some(before) = given.insert((*place, event), line) {
+                return Err(CityError::of(
+                    path,
+                    format!(
+                        "line {line}: event {name} at site {} was given on line {before}: keep one of them",
+                        names[*site]
+                    ),
+                ));
+            }
             let (periods, columns) = &*both.borrow();
             let mut intensities = Vec::with_capacity(columns.len());
             for (at, period) in columns.iter().zip(periods.iter()) {
@@ -114,7 +139,7 @@ pub(super) fn read(
     // What a calculation leaves out is too weak to matter: no shaking.
     let still = vec![0.0; periods.len()];
     let mut places = vec![vec![still; events.len()]; nearest.used.len()];
-    let given = values.len();
+    let known = values.len();
     for (place, event, intensities) in values {
         places[place][order[event]] = intensities;
     }
@@ -131,7 +156,7 @@ pub(super) fn read(
             1e-3 * nearest.farthest,
             measure_name(periods[0]),
             greatest / STANDARD_GRAVITY,
-            all.saturating_sub(given)
+            all.saturating_sub(known)
         ),
         events: events.keys().map(Event::name).collect(),
         periods,

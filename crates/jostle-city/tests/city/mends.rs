@@ -189,3 +189,210 @@ fn geometries_within_geometries_without_end_are_refused() {
     assert!((inventory.buildings[0].area - 100.0).abs() < 1e-9);
     assert_eq!(inventory.mends.len(), 2);
 }
+
+/// A ring of 40 m around a court of 30 m, one building inside it beside the western wall, and one outside beside the eastern wall; a court
+/// that crosses the edge of its building is taken away from it.
+#[test]
+fn courts_are_no_area_and_their_walls_face_what_stands_inside() {
+    let text = "id,storeys,wkt\n\
+        ring,4,\"POLYGON((0 0, 40 0, 40 40, 0 40, 0 0),(5 5, 35 5, 35 35, 5 35, 5 5))\"\n\
+        inside,4,\"POLYGON((5.1 10, 20 10, 20 30, 5.1 30, 5.1 10))\"\n\
+        outside,4,\"POLYGON((40.2 0, 52 0, 52 30, 40.2 30, 40.2 0))\"\n\
+        open,4,\"POLYGON((100 0, 120 0, 120 20, 100 20, 100 0),(110 5, 130 5, 130 15, 110 15, 110 5))\"\n";
+    let inventory = read("courts.csv", text).unwrap();
+    let areas: Vec<f64> = (inventory.buildings.iter())
+        .map(|building| building.area)
+        .collect();
+    for (area, due) in areas.iter().zip([700.0, 298.0, 354.0, 300.0]) {
+        assert!((area - due).abs() < 1e-9, "{areas:?}");
+    }
+    assert_eq!(inventory.mends.len(), 1, "{:?}", inventory.mends);
+    let found = jostle_city::Neighbours::within(&inventory.buildings, 0.5);
+    assert!(found.overlaps.is_empty());
+    let pairs: Vec<_> = (found.pairs.iter())
+        .map(|pair| (pair.buildings, pair.distance, pair.face, pair.normal))
+        .collect();
+    assert_eq!(pairs.len(), 2, "{pairs:?}");
+    for ((buildings, distance, face, normal), due) in pairs
+        .into_iter()
+        .zip([([0, 1], 0.1, 20.0), ([0, 2], 0.2, 30.0)])
+    {
+        assert_eq!(buildings, due.0);
+        assert!((distance - due.1).abs() < 1e-9 && (face - due.2).abs() < 1e-9);
+        assert!(normal.abs() < 1e-9, "{normal}");
+    }
+}
+
+/// Two houses of 10 m, 0.1 m apart, in Web Mercator at 37.77° north, as UTM, in feet, and as metres that nobody calls metres.
+#[test]
+fn reference_systems_are_followed_or_refused_by_name() {
+    let write = |crs: &str, [x, y]: [f64; 2], scale: f64| {
+        let house = |id: &str, from: f64| {
+            let corners = [
+                [0.0, 0.0],
+                [10.0, 0.0],
+                [10.0, 10.0],
+                [0.0, 10.0],
+                [0.0, 0.0],
+            ];
+            let corners =
+                corners.map(|[a, b]| format!("[{},{}]", x + scale * (from + a), y + scale * b));
+            format!(
+                "{{\"type\":\"Feature\",\"properties\":{{\"id\":\"{id}\",\"storeys\":2}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[{}]]}}}}",
+                corners.join(",")
+            )
+        };
+        let features = format!("[{},{}]", house("a", 0.0), house("b", 10.1));
+        // Behind the features as well as before them.
+        format!("{{\"type\":\"FeatureCollection\",\"features\":{features}{crs}}}")
+    };
+    let named = |name: &str| {
+        format!(",\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{name}\"}}}}")
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("city.geojson");
+    let read = |text: String, metres: bool| {
+        std::fs::write(&path, text).unwrap();
+        let options = ReadOptions {
+            metres,
+            ..ReadOptions::default()
+        };
+        Inventory::read(&path, &options).map_err(|error| error.to_string())
+    };
+    // Longitude -122.42, latitude 37.7749, where lengths are 1.263 to 1.27 times as long. PROJ and its geodesic polygon give 99.5562 m².
+    let mercator = [-13_627_732.06, 4_547_675.35];
+    for metres in [false, true] {
+        let text = write(&named("urn:ogc:def:crs:EPSG::3857"), mercator, 1.2634);
+        let inventory = read(text, metres).unwrap();
+        let area = inventory.buildings[0].area;
+        assert!((area - 99.5562).abs() < 1e-4, "{area}");
+    }
+    let utm = named("urn:ogc:def:crs:EPSG::32633");
+    let inventory = read(write(&utm, [50.0, 40.0], 1.0), true).unwrap();
+    assert!((inventory.buildings[0].area - 100.0).abs() < 1e-9);
+    let degrees = named("urn:ogc:def:crs:OGC:1.3:CRS84");
+    assert!(read(write(&degrees, [20.0, 40.0], 1e-5), false).is_ok());
+    for (crs, metres, wanted) in [
+        (utm.clone(), false, "are metres: say so (--metres"),
+        (degrees, true, "leave out --metres"),
+        (named("urn:ogc:def:crs:EPSG::2227"), true, "EPSG::2227"),
+        (",\"crs\":null".to_owned(), false, "no known system"),
+        (String::new(), false, "--metres"),
+    ] {
+        let error = read(write(&crs, [0.0, 0.0], 1.0), metres).expect_err(wanted);
+        assert!(error.contains(wanted), "{error}");
+    }
+    assert!(read(write(",\"crs\":null", [0.0, 0.0], 1.0), true).is_ok());
+}
+
+/// Rows of different origin name an attribute differently: each row has the first of the usual names that has a value there.
+#[test]
+fn columns_of_an_attribute_count_row_by_row() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"", y = x + 10);
+    let rows = [
+        ("1", ",,4", 0),
+        ("2", "3,12.5,", 20),
+        ("3", ",,", 40),
+        ("4", "3,,9", 60),
+    ];
+    let rows = rows.map(|(id, given, x)| format!("{id},{given},{}\n", square(x)));
+    let text = format!(
+        "id,storeys,roof_height,building:levels,wkt\n{}",
+        rows.concat()
+    );
+    let inventory = read("mixed.csv", &text).unwrap();
+    let storeys: Vec<_> = inventory.buildings.iter().map(|one| one.storeys).collect();
+    assert_eq!(storeys, [Some(4), Some(3), None, Some(3)]);
+    let named = &inventory.columns[&jostle_city::Attribute::Storeys];
+    assert_eq!(*named, ["building:levels", "storeys"]);
+}
+
+/// Buildings with one id get names of their own, which no other building has.
+#[test]
+fn ids_given_more_than_once_are_told_apart() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"", y = x + 10);
+    let ids = ["a", "b", "a", "a#3", "a"];
+    let rows = ids
+        .iter()
+        .zip(0..)
+        .map(|(id, n)| format!("{id},2,{}\n", square(20 * n)));
+    let text = format!("id,storeys,wkt\n{}", rows.collect::<String>());
+    let inventory = read("ids.csv", &text).unwrap();
+    let names: Vec<_> = inventory.buildings.iter().map(|one| &one.id[..]).collect();
+    assert_eq!(names, ["a", "b", "a#3#", "a#3", "a#5"]);
+    let told: Vec<_> = inventory
+        .mends
+        .iter()
+        .map(|mend| (mend.row, mend.what))
+        .collect();
+    assert_eq!(told, [(3, "renamed"), (5, "renamed")]);
+}
+
+/// Years are read wherever they stand in a date; what has none is told.
+#[test]
+fn years_are_read_anywhere_in_a_date() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"", y = x + 10);
+    let given = [
+        ("1975", Some(1975)),
+        ("1975.0", Some(1975)),
+        ("12/05/1975", Some(1975)),
+        ("1931-05", Some(1931)),
+        ("c. 1900", Some(1900)),
+        ("1850s", Some(1850)),
+        ("19750312", Some(1975)),
+        ("2001-02-03T00:00:00Z", Some(2001)),
+        ("75", None),
+        ("12051975", None),
+        ("9999", None),
+        ("0", None),
+        ("unknown", None),
+    ];
+    let rows = given
+        .iter()
+        .zip(0..)
+        .map(|((year, _), n)| format!("{n},2,{year},{}\n", square(20 * n)));
+    let text = format!(
+        "id,storeys,year,wkt\n{}99,2,,{}\n",
+        rows.collect::<String>(),
+        square(2000)
+    );
+    let inventory = read("years.csv", &text).unwrap();
+    for (building, (text, due)) in inventory.buildings.iter().zip(given) {
+        assert_eq!(building.year, due, "{text}");
+    }
+    // A row without anything there has no year, and needs no word.
+    let told = inventory.mends.iter().filter(|mend| mend.what == "no year");
+    assert_eq!(told.count(), 5);
+}
+
+/// Heights that give no storey, such as 33 ft of three storeys, are left out with a word; pairs go by storeys then.
+#[test]
+fn heights_that_give_no_storey_are_left_out() {
+    let square = |x: f64| {
+        let y = x + 10.0;
+        format!("\"POLYGON(({x} 0,{y} 0,{y} 10,{x} 10,{x} 0))\"")
+    };
+    let rows = [
+        ("feet", "3,33"),
+        ("metres", "3,9.6"),
+        ("alone", ",14"),
+        ("shed", ",1.5"),
+    ];
+    let rows = rows
+        .iter()
+        .zip(0..)
+        .map(|((id, given), n)| format!("{id},{given},{}\n", square(10.1 * f64::from(n))));
+    let text = format!("id,storeys,height,wkt\n{}", rows.collect::<String>());
+    let inventory = read("heights.csv", &text).unwrap();
+    let heights: Vec<_> = inventory.buildings.iter().map(|one| one.height).collect();
+    assert_eq!(heights, [None, Some(9.6), Some(14.0), None]);
+    let told: Vec<_> = inventory
+        .mends
+        .iter()
+        .map(|mend| (mend.row, mend.what))
+        .collect();
+    assert_eq!(told, [(1, "no height"), (4, "no height")]);
+    let found = jostle_city::Neighbours::within(&inventory.buildings, 0.5);
+    assert!((found.pairs[0].height_ratio - 1.0).abs() < 1e-12);
+    assert!(found.pairs[0].floor_offset.abs() < 1e-12);
+}

@@ -20,6 +20,7 @@ fn rectangle(number: usize, [x, y, width, depth]: [f64; 4], storeys: usize) -> B
         storeys: Some(storeys),
         height: None,
         year: None,
+        level: None,
         kind: None,
     }
 }

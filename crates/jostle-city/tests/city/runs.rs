@@ -323,3 +323,63 @@ fn models_of_pairs_repeat_what_the_city_ran() {
     }
     assert!(compared > 4, "{compared}");
 }
+
+/// Of two buildings of 14 m one has four storeys and the other no number of them: floors of both stand at 3.5 m.
+#[test]
+fn floors_stand_by_the_height_with_or_without_storeys() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = |from: f64| {
+        let to = from + 10.0;
+        format!("\"POLYGON(({from} 0,{to} 0,{to} 10,{from} 10,{from} 0))\"")
+    };
+    let text = format!(
+        "id,storeys,height,wkt\na,4,14,{}\nb,,14,{}\n",
+        square(0.0),
+        square(10.1)
+    );
+    std::fs::write(folder.path().join("two.csv"), text).unwrap();
+    let text = "[inventory]\nfile = \"two.csv\"\nmetres = true\n[buildings]\ntype = \"C1\"\n[motion]\nrecord = \"el-centro-1940-ns\"\n";
+    let file = CityFile::parse("city.toml", text, Format::Toml, folder.path()).unwrap();
+    let model = City::new(file).unwrap().model(0, 0, 0).unwrap();
+    let heights: Vec<&str> = (model.lines())
+        .filter(|line| line.starts_with("storey_height"))
+        .collect();
+    assert_eq!(
+        heights,
+        vec!["storey_height = [\"3.5 m\", \"3.5 m\", \"3.5 m\", \"3.5 m\"]"; 2]
+    );
+}
+
+/// Taxonomy strings of GEM say the level of the code, the storeys and the year; what the inventory says itself holds before their storeys and
+/// year.
+#[test]
+fn taxonomy_strings_give_level_storeys_and_year() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = |from: f64| {
+        let to = from + 10.0;
+        format!("\"POLYGON(({from} 0,{to} 0,{to} 10,{from} 10,{from} 0))\"")
+    };
+    let rows = [
+        "a,,1990,CR/LFINF+CDN/HEX:3",
+        "b,2,1990,CR/LFM+CDL/HBET:4-6",
+        "c,,,CR/LFM/H:4/YEX:1935",
+        "d,,1990,CR/LFM/H:2",
+    ];
+    let rows = rows
+        .iter()
+        .zip(0..)
+        .map(|(row, n)| format!("{row},{}\n", square(10.1 * f64::from(n))));
+    let text = format!("id,storeys,year,taxonomy,wkt\n{}", rows.collect::<String>());
+    std::fs::write(folder.path().join("gem.csv"), text).unwrap();
+    let text = "[inventory]\nfile = \"gem.csv\"\nmetres = true\n[motion]\nrecord = \"el-centro-1940-ns\"\n";
+    let file = CityFile::parse("city.toml", text, Format::Toml, folder.path()).unwrap();
+    let model = City::new(file).unwrap().model(0, 0, 0).unwrap();
+    for told in [
+        "is a: C3L, pre code, 3 storeys",
+        "is b: C1L, low code, 2 storeys",
+        "is c: C1M, pre code, 4 storeys",
+        "is d: C1L, high code, 2 storeys",
+    ] {
+        assert!(model.contains(told), "{told}: {model}");
+    }
+}

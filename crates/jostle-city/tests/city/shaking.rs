@@ -189,6 +189,14 @@ fn maps_that_do_not_fit_are_refused_with_a_remedy() {
     write("sites.csv", "site_id,lon,lat\n1,-30,40\n");
     write("other.csv", "event_id,site_id,gmv_PGA\n1,2,0.1\n");
     write("pgv.csv", "event_id,site_id,gmv_PGV\n1,1,0.1\n");
+    write(
+        "twice.csv",
+        "event_id,site_id,gmv_PGA\n1,1,0.1\n2,1,0.3\n1,1,0.2\n",
+    );
+    write(
+        "sites2.csv",
+        "site_id,lon,lat\n1,-30,40\n2,-30,41\n1,-31,40\n",
+    );
     write("strong.csv", "event_id,site_id,gmv_PGA\n1,1,30\n");
     write("word.csv", "event_id,site_id,gmv_PGA\n1,1,x\n");
     let record = "record = \"el-centro-1940-ns\"\n";
@@ -225,6 +233,14 @@ fn maps_that_do_not_fit_are_refused_with_a_remedy() {
         (
             format!("{record}gmf = \"pgv.csv\"\nsites = \"sites.csv\""),
             "neither gmv_PGA nor gmv_SA(T)",
+        ),
+        (
+            format!("{record}gmf = \"twice.csv\"\nsites = \"sites.csv\""),
+            "line 4: event 1 at site 1 was given on line 2",
+        ),
+        (
+            format!("{record}gmf = \"word.csv\"\nsites = \"sites2.csv\""),
+            "site 1 is given on rows 1 and 3",
         ),
         (
             format!("{record}gmf = \"word.csv\"\nsites = \"sites.csv\""),

@@ -5,9 +5,12 @@ use std::fmt::Write;
 
 use jostle::ProportionalDamping;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, SlidingStage};
-use jostle::structure::{Discretization, Element, Node, Part, Spring, StickModel, Support};
+use jostle::structure::{
+    Discretization, Element, FrameDiagonal, Node, Part, Spring, StickModel, Support,
+};
 use jostle::system::BuildingSystem;
 
+use super::arms::{self, Stiffness};
 use super::foundation::{GROUND, Turning};
 use super::panels::Panels;
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
@@ -15,8 +18,6 @@ use super::ties::{COMPONENTS, ROTATION, Ties, is_held, is_vertical, stiffnesses}
 
 /// Elastic stiffness of the stages of a bearing together, in units of that of the bearing \[–\].
 const RIGID: f64 = 1e4;
-/// Stiffness of what holds an end on its rigid arm, in units of the stiffest member in bending \[–\].
-const STIFF: f64 = 1e5;
 
 impl Script<'_> {
     pub(super) fn add_building(
@@ -249,12 +250,6 @@ impl Script<'_> {
 
     /// What stands at the end of a rigid arm of a joint: faces of walls, and ends of columns that are rigid inside their joints.
     fn add_arms(&mut self, index: usize, stick_model: &StickModel) {
-        let bending = stick_model.members.iter().map(|member| {
-            let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
-            let length = (b.x - a.x).abs().max((b.y - a.y).abs());
-            12.0 * member.flexural_rigidity / (length * length * length)
-        });
-        let stiffest = bending.fold(0.0, f64::max);
         for hinge in &stick_model.hinges {
             let [joint, end] = hinge.ends;
             let turns_with = hinge.rotational_stiffness.is_none();
@@ -266,11 +261,10 @@ impl Script<'_> {
             });
             if turns_with && tied.contains(&true) {
                 let ends = [joint, end].map(|node| self.tag(index, node));
-                let material = self.materials.elastic(STIFF * stiffest, 0.0);
+                let stiff = Stiffness::of_arm(stick_model, hinge).bending;
+                let material = self.materials.elastic(stiff, 0.0);
                 self.lever(ends, material, Turning::First, ProportionalDamping::None);
-                self.remark(
-                    "What stands at the end of a rigid arm is held there by a spring 1e5 times as stiff as the stiffest member in bending.",
-                );
+                self.remark(arms::REMARK);
             }
         }
     }
@@ -394,10 +388,11 @@ impl Script<'_> {
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
         let mut panels = Panels::default();
+        let stick_model = &building.discretization.stick_model;
         for diagonal in &building.discretization.diagonals {
             let ends = diagonal.ends.map(|node| self.tag(index, node));
             let first = self.next_element;
-            self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+            self.add_diagonal(stick_model, diagonal, ends)?;
             panels.add(diagonal, first..self.next_element);
         }
         self.add_panels(index, building, panels);
@@ -407,13 +402,23 @@ impl Script<'_> {
     /// A brace or a strut between two joints.
     pub(super) fn add_diagonal(
         &mut self,
+        stick_model: &StickModel,
+        diagonal: &FrameDiagonal,
         [first, last]: [usize; 2],
-        stiffness: f64,
-        hysteresis: Option<&Hysteresis>,
     ) -> Result<(), &'static str> {
-        // What yields has no part in the damping of the building.
-        let damped = python_bool(hysteresis.is_none());
-        for material in self.spring_materials(stiffness, hysteresis, 0.0)? {
+        let hysteresis = diagonal.spring.as_ref();
+        let mut yielding = stick_model.yielding.iter();
+        let damped = match hysteresis {
+            None => ProportionalDamping::Initial,
+            Some(own) => {
+                yielding
+                    .find(|one| one.row == diagonal.elongation && one.hysteresis == *own)
+                    .ok_or("has a brace or strut without a spring")?
+                    .proportional_damping
+            }
+        };
+        let damped = python_damping(damped);
+        for material in self.spring_materials(diagonal.stiffness, hysteresis, 0.0)? {
             let tag = self.element();
             let _ = writeln!(
                 self.diagonals,

@@ -4,6 +4,7 @@
 //! F. McKenna, M. H. Scott, G. L. Fenves (2010), J. Comput. Civ. Eng. 24, 95–107; M. Zhu, F. McKenna, M. H. Scott
 //! (2018), SoftwareX 7, 6–11. docs/export.md describes the behaviour of the program.
 
+mod arms;
 mod building;
 mod contacts;
 mod fibres;

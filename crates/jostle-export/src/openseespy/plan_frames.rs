@@ -10,13 +10,14 @@ use jostle::structure::{Hinge, StickModel, Support, Turn};
 use jostle::system::BuildingSystem;
 use jostle::{PlanFrame, ProportionalDamping, Tiers};
 
+use super::arms::{self, Stiffness};
 use super::fibres::FibreEnd;
 use super::panels::Panels;
 use super::plan_base::DampedMass;
 use super::script::{Script, python_damping, rounded};
 use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
 
-/// Stiffness of what stands for a rigid connection, in units of the stiffest member \[–\].
+/// Stiffness of springs that join a member to its joint where it has no hinge, in units of the stiffest member \[–\].
 const STIFF: f64 = 1e6;
 
 /// Directions of OpenSees, along a line, upwards and about the axis across both, of the displacements in the plane of a frame.
@@ -43,7 +44,7 @@ impl Script<'_> {
             is_held(stick_model, node, component) || ties.held.contains(&(node, component))
         };
         self.add_upright_joints(index, stick_model, &frames, held);
-        let stiff = Stiff::of(stick_model);
+        let stiff = Stiffness::of(stick_model, |_| true).times(STIFF);
         for member in &stick_model.members {
             let [mut a, mut b] = member.ends;
             let Some(frame) = frames.get(&a) else {
@@ -71,9 +72,10 @@ impl Script<'_> {
             let Some(frame) = frames.get(&hinge.ends[0]) else {
                 continue;
             };
-            if let Some(component) = arm(stick_model, hinge) {
+            if let Some(component) = arms::arm(stick_model, hinge) {
                 let [joint, end] = hinge.ends.map(|node| stick_model.nodes[node]);
-                let length = (end.x - joint.x).abs().max((end.y - joint.y).abs());
+                let length = arms::length(stick_model, hinge.ends);
+                let stiff = Stiffness::of_arm(stick_model, hinge);
                 let rigidity = stiff.turning * length;
                 let mut ends = hinge.ends;
                 if end.x + end.y < joint.x + joint.y {
@@ -84,7 +86,7 @@ impl Script<'_> {
                     (component == 0, frame.direction),
                     [Some(rigidity), Some(stiff.moving * length), None],
                 );
-                self.remark("Rigid arms are beams 1e6 times as stiff as the stiffest member.");
+                self.remark(arms::REMARK);
                 continue;
             }
             self.add_upright_hinge(index, stick_model, hinge, frame, (&stiff, held))?;
@@ -110,7 +112,7 @@ impl Script<'_> {
             if diagonal.frame.is_some() {
                 let ends = diagonal.ends.map(|node| self.tag(index, node));
                 let first = self.next_element;
-                self.add_diagonal(ends, diagonal.stiffness, diagonal.spring.as_ref())?;
+                self.add_diagonal(stick_model, diagonal, ends)?;
                 panels.add(diagonal, first..self.next_element);
             }
         }
@@ -201,7 +203,7 @@ impl Script<'_> {
         stick_model: &StickModel,
         hinge: &Hinge,
         frame: &PlanFrame,
-        (stiff, held): (&Stiff, impl Fn(usize, usize) -> bool),
+        (stiff, held): (&Stiffness, impl Fn(usize, usize) -> bool),
     ) -> Result<(), &'static str> {
         // Rotations in the plane of the frame count the other way about the axis across it.
         let ends = hinge.ends;
@@ -347,39 +349,4 @@ fn floor_of(stick_model: &StickModel, node: usize) -> Option<usize> {
     let mut nodes = row.entries().iter().map(|(place, _)| place / COMPONENTS);
     let floor = nodes.next()?;
     (!stands_in_frame(stick_model, floor) && nodes.all(|other| other == floor)).then_some(floor)
-}
-
-/// The displacement of the end of a rigid arm that a hinge leaves to the rotation of the joint, if it is one.
-fn arm(stick_model: &StickModel, hinge: &Hinge) -> Option<usize> {
-    let [joint, end] = hinge.ends.map(|node| stick_model.nodes[node]);
-    let apart = (end.x - joint.x).abs() + (end.y - joint.y).abs() > 0.0;
-    let free = |component: &usize| hinge.translational_stiffness[*component] == Some(0.0);
-    let component = [0, 1].into_iter().find(free)?;
-    (apart && hinge.rotational_stiffness.is_none()).then_some(component)
-}
-
-/// Stiffness of rigid connections.
-struct Stiff {
-    /// Of what does not move \[N/m\].
-    moving: f64,
-    /// Of what does not turn \[N·m/rad\].
-    turning: f64,
-}
-
-impl Stiff {
-    fn of(stick_model: &StickModel) -> Self {
-        let (mut moving, mut turning) = (0.0_f64, 0.0_f64);
-        for member in &stick_model.members {
-            let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
-            let length = (b.x - a.x).abs().max((b.y - a.y).abs());
-            let bending = member.flexural_rigidity / length;
-            let axial = member.axial_rigidity.map_or(0.0, |axial| axial / length);
-            moving = moving.max(axial).max(12.0 * bending / (length * length));
-            turning = turning.max(4.0 * bending);
-        }
-        Self {
-            moving: STIFF * moving,
-            turning: STIFF * turning,
-        }
-    }
 }

@@ -158,14 +158,11 @@ impl Script<'_> {
             let [Some(first), Some(last)] = joints.collect::<Vec<_>>()[..] else {
                 return Err("has a brace without a joint");
             };
-            self.add_diagonal(
-                [first, last],
-                diagonal.stiffness,
-                diagonal.hysteresis.as_ref(),
-            )?;
-            if let Some(placed) = placed {
-                panels.add(placed, before..self.next_element);
-            }
+            let Some(placed) = placed else {
+                return Err("has a brace without a spring");
+            };
+            self.add_diagonal(&building.discretization.stick_model, placed, [first, last])?;
+            panels.add(placed, before..self.next_element);
         }
         self.add_panels(index, building, panels);
         Ok(())

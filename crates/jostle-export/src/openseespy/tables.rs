@@ -123,7 +123,7 @@ impl Script<'_> {
         table(
             out,
             "DIAGONALS",
-            "element, lower node, upper node, material of the axial force, whether Rayleigh damping acts on it",
+            "element, lower node, upper node, material of the axial force, the stiffness on which Rayleigh damping acts",
             &self.diagonals,
         )?;
         table(

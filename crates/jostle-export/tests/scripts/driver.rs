@@ -70,6 +70,10 @@ def nodeDisp(*arguments):
 
 nodeVel = nodeDisp
 
+def region(number, *arguments):
+    with open(os.environ["REGIONS"], "a") as file:
+        file.write(" ".join(map(str, arguments)) + "\n")
+
 def setNodeDisp(tag, direction, value, *_):
     if "MOVED" in os.environ:
         with open(os.environ["MOVED"], "a") as file:
@@ -112,6 +116,7 @@ fn run_model(folder: &Path, input: &Input, longest: f64, [begin, end]: [f64; 2])
     let mut command = Command::new("python3");
     command.arg(&script).env("PYTHONDONTWRITEBYTECODE", "1");
     command.env("MOVED", folder.join("moved"));
+    command.env("REGIONS", folder.join("regions"));
     for (name, value) in [("LONGEST", longest), ("BEGIN", begin), ("END", end)] {
         command.env(name, value.to_string());
     }
@@ -239,4 +244,28 @@ fn supports_move_with(text: &str) {
         greatest[index] = greatest[index].max(expected.abs());
     }
     assert!(greatest.iter().all(|moved| *moved > 1e-2), "{greatest:?}");
+}
+
+/// A brace that is damped by its tangent is in a region of its own, with beta on the stiffness of the last step.
+#[test]
+fn braces_damped_by_their_tangents_are_regions() {
+    let brace = "\n[[building.brace]]\nEA = \"200 MN\"\nhinge = { rule = \"bilinear\", yield = \"60 kN\", post_yield = 0.02 }\n";
+    let text = MODEL.replace(
+        "[[building]]",
+        "[[building]]\ndamping = { beta = 0.003, yielding = \"tangent\" }",
+    );
+    let hinges = text.find("hinges =").expect("hinges");
+    let input = sound(&format!("{}{brace}", &text[..hinges]));
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(output) = run_model(folder.path(), &input, 1.0, [9e9, 9e9]) else {
+        return;
+    };
+    let (printed, complained) = told(&output);
+    assert!(output.status.success(), "{printed}\n{complained}");
+    let script = std::fs::read_to_string(folder.path().join("model.py")).expect("a script");
+    let rows = crate::script::table(&script, "DIAGONALS");
+    assert_eq!(rows.len(), 1);
+    let regions = std::fs::read_to_string(folder.path().join("regions")).expect("regions");
+    let due = format!("-eleOnly {} -rayleigh 0.0 0.0 0.0 0.003", rows[0][0]);
+    assert!(regions.lines().any(|region| region == due), "{regions}");
 }

@@ -221,7 +221,8 @@ EA = "200 MN"
 hinge = { rule = "bilinear", yield = "60 kN", post_yield = 0.02 }
 "#;
 
-/// Braces of a space frame join the joints of its members, along the lines between them; those that yield are not damped.
+/// Braces of a space frame join the joints of its members, along the lines between them; those that yield are not damped unless the
+/// model says so.
 #[test]
 fn braces_of_space_frames_join_their_joints() {
     const FRAME: &str = include_str!("../../../jostle-validation/data/space/S8_space_frame.toml");
@@ -238,9 +239,75 @@ fn braces_of_space_frames_join_their_joints() {
         .map(|row| (place(&row[1]), place(&row[2]), &row[4][..]));
     let found: Vec<_> = found.collect();
     assert_eq!(found.len(), 3 * 2 + 2);
-    assert_eq!(found[0], ([6.0, 0.0, 0.0], [11.0, 0.0, 4.0], "True"));
-    assert_eq!(found[1], ([11.0, 0.0, 0.0], [6.0, 0.0, 4.0], "True"));
-    assert_eq!(found[7], ([11.0, 5.0, 4.0], [11.0, 9.0, 7.2], "False"));
+    assert_eq!(found[0], ([6.0, 0.0, 0.0], [11.0, 0.0, 4.0], "\"initial\""));
+    assert_eq!(found[1], ([11.0, 0.0, 0.0], [6.0, 0.0, 4.0], "\"initial\""));
+    assert_eq!(found[7], ([11.0, 5.0, 4.0], [11.0, 9.0, 7.2], "None"));
+}
+
+const YIELDING_BRACE: &str =
+    "\nhinge = { rule = \"bilinear\", yield = \"60 kN\", post_yield = 0.02 }\n";
+
+/// Braces that yield are damped as the model says, in plane frames, in frames at lines and in space frames; struts of panels never are.
+#[test]
+fn braces_that_yield_are_damped_as_asked() {
+    const SPACE: &str = include_str!("../../../jostle-validation/data/space/S8_space_frame.toml");
+    const LINES: &str = include_str!("../../../jostle-validation/data/opensees/plan_falling.toml");
+    const PLANE: &str = r#"
+[motion]
+record = "el-centro-1940-ns"
+[[building]]
+name = "frame"
+kind = "frame"
+storeys = 1
+storey_height = 3.0
+spans = [4.0]
+column = { width = 0.4, depth = 0.4 }
+beam = { width = 0.3, depth = 0.5 }
+elastic_modulus = 3e10
+floor_mass = 30000
+[[building.brace]]
+EA = "200 MN"
+"#;
+    let lines = LINES.split("[[building]]").collect::<Vec<_>>();
+    let lines = format!("{}[[building]]{}", lines[0], lines[1]).replacen(
+        "[[building.frame.infill]]",
+        &format!("[[building.frame.brace]]\nbay = 1\nEA = \"200 MN\"{YIELDING_BRACE}[[building.frame.infill]]"),
+        1,
+    );
+    for (model_text, kind, braces, struts) in [
+        (format!("{SPACE}{BRACED}"), "space-frame", 2, 0),
+        (lines, "lines", 4, 8),
+        (format!("{PLANE}{YIELDING_BRACE}"), "plane", 1, 0),
+    ] {
+        for (asked, due) in [
+            ("none", "None"),
+            ("initial", "\"initial\""),
+            ("tangent", "\"tangent\""),
+        ] {
+            let mut input = model(&model_text);
+            input.model.buildings[0].yielding_damping = Some(match asked {
+                "none" => jostle::ProportionalDamping::None,
+                "initial" => jostle::ProportionalDamping::Initial,
+                _ => jostle::ProportionalDamping::Tangent,
+            });
+            let text = export(&input).expect("it can be exported").text;
+            let materials = table(&text, "MATERIALS");
+            let yields = |row: &&Vec<String>| {
+                let material = materials.iter().find(|material| material[1] == row[3]);
+                material.expect("a material")[0] != "\"Elastic\""
+            };
+            let rows = table(&text, "DIAGONALS");
+            let yielding: Vec<_> = rows.iter().filter(yields).collect();
+            assert_eq!(yielding.len(), braces + struts, "{kind}");
+            let damped = yielding.iter().filter(|row| row[4] == due).count();
+            let all = if asked == "none" {
+                braces + struts
+            } else {
+                braces
+            };
+            assert_eq!(damped, all, "{kind}, {asked}: {yielding:?}");
+        }
+    }
 }
 
 /// Members of a space frame have rigid ends, unless hinges stand there.
@@ -595,4 +662,57 @@ fn feet_that_slide_on_a_base_that_rocks_are_refused() {
     let faults = export(&model(&text("rotational_stiffness = \"30 GN.m/rad\"")));
     let faults = faults.expect_err("its feet slide");
     assert!(faults[0].problem.contains("feet that slide"), "{faults:?}");
+}
+
+/// Rigid arms are 1e5 times as stiff as the beams that they hold, however stiff the walls are that they belong to: with arms 1e6 times as
+/// stiff as the walls, rounding gave OpenSees a second period 9 % too short where bearings stand below.
+#[test]
+fn rigid_arms_follow_the_members_that_they_hold() {
+    let walls = |thickness: f64| {
+        let text = format!(
+            r#"
+[motion]
+record = "el-centro-1940-ns"
+[[building]]
+name = "lines"
+kind = "frame"
+storeys = 1
+storey_height = 3.0
+plan = [8.0, 6.0]
+mass = 60e3
+[[building.frame]]
+at = [[0.0, 0.0], [0.0, 6.0]]
+spans = [4.0, 4.0]
+column = {{ width = 0.4, depth = 0.4 }}
+beam = {{ width = 0.3, depth = 0.5 }}
+beam_segments = 1
+elastic_modulus = 3e10
+[[building.frame.wall]]
+line = 2
+length = 1.0
+thickness = {thickness}
+[[building.frame]]
+at = [[0.0, 0.0], [8.0, 0.0]]
+direction = "y"
+spans = [6.0]
+column = {{ width = 0.4, depth = 0.4 }}
+beam = {{ width = 0.3, depth = 0.5 }}
+elastic_modulus = 3e10
+"#
+        );
+        let text = export(&model(&text)).expect("it can be exported").text;
+        let rows = table(&text, "COLUMNS_AND_BEAMS");
+        rows.iter().map(|row| number(&row[3])).collect::<Vec<_>>()
+    };
+    let [thin, thick] = [0.1, 0.9].map(walls);
+    // E b h^3 / 12 over 4 m less half of the wall, and an arm of that half.
+    let beam = 3e10 * 0.3 * 0.125 / 12.0;
+    let due = 1e5 * 4.0 * beam / 3.5 * 0.5;
+    for rows in [thin, thick] {
+        let arms = rows
+            .iter()
+            .filter(|value| **value > 1e11 && (*value / due - 1.0).abs() < 1e-12);
+        assert_eq!(arms.count(), 4, "{rows:?}, {due}");
+        assert!(rows.iter().all(|value| *value < 1.001 * due), "{rows:?}");
+    }
 }

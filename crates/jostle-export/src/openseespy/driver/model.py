@@ -165,6 +165,7 @@ def damp():
         nodes = range(first, last + 1)
         springs = [row for row in (*SPRINGS, *LEVERED, *TILTED_STOREYS) if row[1] in nodes or row[2] in nodes]
         springs += [spring for *_, springs in HINGED_ENDS for spring in springs if spring[1] in nodes]
+        springs += [row for row in DIAGONALS if row[1] in nodes or row[2] in nodes]
         springs += [row[:-1] for row in UPRIGHT_SPRINGS if row[1] in nodes]
         by_tangent = [row[0] for row in springs if row[-1] == "tangent"]
         if by_tangent:
