@@ -101,6 +101,8 @@ pub(crate) struct Facts {
     pub(crate) text: Option<TextModel>,
     /// Whether the model is one of SAP2000, which has other tables.
     pub(crate) sap2000: bool,
+    /// Why the text model has no masses of its own.
+    pub(crate) without_masses: Option<&'static str>,
     /// Units of the text model or the listing.
     pub(crate) units: Option<crate::units::Units>,
     /// Tables found, for messages.
@@ -216,6 +218,12 @@ impl Facts {
             false => &self.solver_masses,
             true => &self.masses,
         };
+        if masses.is_empty() && self.sap2000 {
+            let why = self.without_masses.unwrap_or(
+                "no joint under a diaphragm has a mass (table JOINT ADDED MASS ASSIGNMENTS)",
+            );
+            return Err(self.fault("", format!("has no floor masses: {why}"), "name the .OUT and .LOG files of the analysis as well, or make a mass source of added masses alone"));
+        }
         if masses.is_empty() {
             return Err(self.fault("", "has no floor masses", "export the table Mass Summary by Diaphragm as well, or name the .OUT and .LOG files of the analysis; masses are not taken from loads, which give 12 to 17 % too much"));
         }
