@@ -9,16 +9,23 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
+use jostle_classes::GemFacts;
 
 use crate::building::Building;
 use crate::fault::CityError;
-use crate::mend::{Mend, repeats, whole};
+use crate::mend::{Mend, renamed, repeats, whole};
 use crate::plane::Plane;
 
 pub use columns::{Attribute, Columns};
 
 /// Footprints below this are sheds and slivers \[m²\].
 pub(crate) const LEAST_AREA: f64 = 20.0;
+
+/// The largest buildings cover about one square kilometre \[m²\].
+const MOST_AREA: f64 = 4e6;
+
+/// Systems in feet: state planes of the United States (EPSG).
+const FEET: [std::ops::RangeInclusive<u32>; 2] = [2222..=2289, 3417..=3420];
 
 /// A file of footprints, read and mended.
 #[derive(Clone, Debug)]
@@ -109,6 +116,46 @@ impl<'a> Gathered<'a> {
         }
     }
 
+    /// Refuses a named system of coordinates that is not what they are read as.
+    ///
+    /// # Errors
+    /// Degrees that are said to be metres, others that are not said to be metres, and systems that are not in metres of the ground.
+    fn check_system(&self, name: &str) -> Result<(), CityError> {
+        let upper = name.to_uppercase();
+        let code = upper.rsplit([':', '/']).next().unwrap_or_default();
+        // WGS 84, ETRS89, NAD 83 and others of the same within a few metres.
+        let degrees = [
+            "CRS84", "CRS83", "CRS84H", "4326", "4979", "4258", "4269", "4283", "4612", "6668",
+        ];
+        let is_degrees = degrees.contains(&code);
+        let remedy = "write the file anew in WGS 84 (EPSG:4326)";
+        let problem = match self.options.metres {
+            true if is_degrees => {
+                "has degrees of longitude and latitude: leave out metres".to_owned()
+            }
+            false if is_degrees => return Ok(()),
+            false => format!(
+                "is not known to have degrees of longitude and latitude: {remedy}, or say that coordinates are metres if they are (--metres, or metres = true in the city file)"
+            ),
+            // Web Mercator stretches by 1/cos φ; state planes of the United States are in feet.
+            true if ["3857", "900913", "102100", "3785", "3395"].contains(&code) => {
+                format!("has metres at the equator alone: {remedy}")
+            }
+            true if code
+                .parse::<u32>()
+                .is_ok_and(|code| FEET.iter().any(|range| range.contains(&code)))
+                || upper.contains("FTUS") =>
+            {
+                format!("is in feet: {remedy}, or in a system in metres")
+            }
+            true => return Ok(()),
+        };
+        Err(CityError::of(
+            self.path,
+            format!("the system of coordinates \"{name}\" {problem}"),
+        ))
+    }
+
     /// Names of the columns that may hold outlines.
     fn geometry_names(&self) -> Vec<String> {
         self.options.columns.names(Attribute::Footprint)
@@ -127,17 +174,24 @@ impl<'a> Gathered<'a> {
             height: None,
             year: None,
             kind: None,
+            level: None,
         };
+        // Of several columns for one attribute, the one that was met first holds where it says something, else another.
+        let mut of_row: BTreeMap<Attribute, (&str, &str)> = BTreeMap::new();
         for (name, text) in &record.fields {
             let Some(attribute) = self.options.columns.attribute(name) else {
                 continue;
             };
-            self.columns
+            let first = self
+                .columns
                 .entry(attribute)
                 .or_insert_with(|| name.clone());
-            if self.columns.get(&attribute) != Some(name) {
-                continue;
+            if first == name || !of_row.contains_key(&attribute) {
+                of_row.insert(attribute, (name, text));
             }
+        }
+        let mut unread = None;
+        for (attribute, (name, text)) in of_row {
             let number = || {
                 let text = text.trim();
                 text.parse::<f64>()
@@ -153,7 +207,7 @@ impl<'a> Gathered<'a> {
                     })
             };
             match attribute {
-                Attribute::Id => building.id.clone_from(text),
+                Attribute::Id => text.clone_into(&mut building.id),
                 Attribute::Type => building.kind = Some(text.trim().to_owned()),
                 Attribute::Footprint => {}
                 Attribute::Storeys => {
@@ -166,14 +220,18 @@ impl<'a> Gathered<'a> {
                     building.height = Some(number()?).filter(|number| *number > 0.0);
                 }
                 Attribute::Year => {
-                    // A date such as 1931-05 is a year too.
-                    let year = text
-                        .trim()
-                        .get(..4)
-                        .and_then(|digits| digits.parse::<i32>().ok());
-                    building.year = year.filter(|year| *year > 0);
+                    building.year = year_of(text);
+                    if building.year.is_none() {
+                        unread = Some(format!("the year \"{}\" is not read", text.trim()));
+                    }
                 }
             }
+        }
+        if let Some(kind) = &building.kind {
+            let said = GemFacts::of(kind);
+            building.level = said.level;
+            building.storeys = building.storeys.or(said.storeys);
+            building.year = building.year.or(said.year);
         }
         let mut noted = |what: &'static str, detail: String| {
             self.mends.push(Mend {
@@ -183,6 +241,9 @@ impl<'a> Gathered<'a> {
                 detail,
             });
         };
+        if let Some(detail) = unread {
+            noted("assumed", detail);
+        }
         let geometry = match record.geometry {
             Ok(geometry) => geometry,
             Err(problem) => {
@@ -250,6 +311,18 @@ impl<'a> Gathered<'a> {
             noted("mended", how);
         }
         building.area = outline.unsigned_area();
+        if let Plane::Degrees { .. } = plane
+            && building.area > MOST_AREA
+        {
+            return Err(CityError::of(
+                self.path,
+                format!(
+                    "row {row}: an outline of {:.0} km² is no building: coordinates are read as degrees of longitude and latitude; \
+                     if they are metres, say so (--metres, or metres = true in the city file)",
+                    1e-6 * building.area
+                ),
+            ));
+        }
         building.outline = outline;
         if building.area < LEAST_AREA {
             noted(
@@ -284,6 +357,7 @@ impl<'a> Gathered<'a> {
             );
         }
         self.mends.extend(repeats(&mut self.buildings));
+        self.mends.extend(renamed(&mut self.buildings));
         self.mends.sort_by_key(|mend| mend.row);
         let unknown =
             |building: &&Building| building.storeys.is_none() && building.height.is_none();
@@ -303,6 +377,13 @@ impl<'a> Gathered<'a> {
             columns: self.columns,
         })
     }
+}
+
+/// The year of a date such as 1931-05, 12/05/1975 or c. 1900: its first four digits that stand together.
+fn year_of(text: &str) -> Option<i32> {
+    let mut runs = text.split(|c: char| !c.is_ascii_digit());
+    let run = runs.find(|run| run.len() >= 4)?;
+    run[..4].parse().ok().filter(|year| *year > 0)
 }
 
 /// The middle of all buildings \[m\].

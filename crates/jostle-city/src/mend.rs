@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use geo::{Area, BooleanOps, Centroid, LineString, MultiPolygon, Orient, Polygon, Validation};
+use geo::{Area, BooleanOps, Centroid, MultiPolygon, Orient, Polygon, Validation};
 
 use crate::building::Building;
 
@@ -22,7 +22,7 @@ pub struct Mend {
     pub detail: String,
 }
 
-/// The largest part of an outline without its courts, valid, anticlockwise; and how it was mended, if it was.
+/// The largest part of an outline with its courts, valid, anticlockwise; and how it was mended, if it was.
 pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let count = parts.len();
     let mut how = Vec::new();
@@ -38,10 +38,10 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let mut mended = Vec::new();
     let mut invalid = false;
     for part in parts {
-        let (exterior, _) = part.into_inner();
-        let outline = Polygon::new(exterior, Vec::new());
+        let outline = part;
         // The check compares every wall with every other; the rule below does not.
-        let long = outline.exterior().0.len() > LONG;
+        let courts = outline.interiors().iter().map(|court| court.0.len());
+        let long = outline.exterior().0.len() + courts.sum::<usize>() > LONG;
         if !long && outline.is_valid() {
             mended.push(outline);
             continue;
@@ -60,8 +60,6 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     let Some(chosen) = largest(mended) else {
         return (None, None);
     };
-    let (exterior, _) = chosen.into_inner();
-    let chosen = Polygon::new(LineString::new(exterior.0), Vec::new());
     if chosen.unsigned_area() <= 0.0 {
         return (None, None);
     }
@@ -91,5 +89,27 @@ pub(crate) fn repeats(buildings: &mut Vec<Building>) -> Vec<Mend> {
         seen.insert(key, building.id.clone());
         true
     });
+    mends
+}
+
+/// Gives buildings that have the name of one before them names of their own, as draws go by names.
+pub(crate) fn renamed(buildings: &mut [Building]) -> Vec<Mend> {
+    let mut rows: HashMap<String, usize> = HashMap::new();
+    let mut mends = Vec::new();
+    for building in buildings {
+        let Some(first) = rows.get(&building.id).copied() else {
+            rows.insert(building.id.clone(), building.row);
+            continue;
+        };
+        let name = format!("{} (row {})", building.id, building.row);
+        mends.push(Mend {
+            id: name.clone(),
+            row: building.row,
+            what: "mended",
+            detail: format!("renamed: row {first} has the name {} too", building.id),
+        });
+        rows.insert(name.clone(), building.row);
+        building.id = name;
+    }
     mends
 }

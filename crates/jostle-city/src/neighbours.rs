@@ -1,7 +1,8 @@
 //! Which buildings stand side by side, and how.
 
 use geo::{
-    Area, BooleanOps, BoundingRect, Coord, Distance, Euclidean, Intersects, Line, Polygon, Rect,
+    Area, BooleanOps, BoundingRect, Coord, Distance, Euclidean, Intersects, Line, LinesIter,
+    Polygon, Rect,
 };
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -195,19 +196,16 @@ fn facing(a: &Polygon, b: &Polygon, reach: f64) -> (f64, Option<f64>) {
         within(rect.min().x, rect.max().x, other.min().x, other.max().x)
             && within(rect.min().y, rect.max().y, other.min().y, other.max().y)
     };
-    let edges_b: Vec<Line> = b
-        .exterior()
-        .lines()
-        .filter(|line| near(line, &box_a))
-        .collect();
+    // Walls of courts face what stands in them.
+    let edges_b: Vec<Line> = b.lines_iter().filter(|line| near(line, &box_a)).collect();
     let (mut face, mut sum) = (0.0, [0.0, 0.0]);
-    for edge in a.exterior().lines().filter(|line| near(line, &box_b)) {
+    for edge in a.lines_iter().filter(|line| near(line, &box_b)) {
         let length = libm::hypot(edge.dx(), edge.dy());
         if length < 1e-6 {
             continue;
         }
         let along = [edge.dx() / length, edge.dy() / length];
-        // Outlines run anticlockwise, so outward is to the right.
+        // Outlines run anticlockwise and their courts clockwise, so outward is to the right.
         let outward = [along[1], -along[0]];
         for other in &edges_b {
             let other_length = libm::hypot(other.dx(), other.dy());

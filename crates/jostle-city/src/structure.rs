@@ -12,9 +12,6 @@ use crate::mend::Mend;
 /// Most storeys of a building that batches step.
 const MOST_STOREYS: usize = 16;
 
-/// Heights of a storey that a building may have \[m\].
-const STOREYS: std::ops::RangeInclusive<f64> = 2.2..=6.0;
-
 /// A class, storeys and area.
 #[derive(Clone, Debug)]
 pub(crate) struct Structure {
@@ -116,7 +113,7 @@ pub(crate) fn structures(
                 .year
                 .map_or(Level::Moderate, |year| Level::in_year(year, &since))
         };
-        let level = fixed.unwrap_or_else(by_year);
+        let level = building.level.or(fixed).unwrap_or_else(by_year);
         let kind = building.kind.as_deref().unwrap_or(&file.kind);
         let class = types
             .of(kind, storeys, level)
@@ -130,13 +127,12 @@ pub(crate) fn structures(
             ));
         }
         // Floors stand where the inventory says, if that is a storey; else where the class has them.
-        let given = building
-            .height
-            .filter(|_| building.storeys.is_some())
-            .map(|height| height / known as f64);
-        let storey_height = given
-            .filter(|height| STOREYS.contains(height))
-            .unwrap_or(class.storey_height);
+        let storey_height = building.storey_height().unwrap_or(class.storey_height);
+        if let (Some(height), None) = (building.height, building.storey_height()) {
+            assumed(format!(
+                "storeys of {storey_height:.2} m: {height} m is no height of {known} storeys"
+            ));
+        }
         all.push(Structure {
             class,
             storeys,

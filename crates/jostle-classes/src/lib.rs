@@ -11,6 +11,7 @@ mod types;
 mod variability;
 
 pub use class::Class;
+pub use gem::GemFacts;
 pub use in_full::{BothWays, IN_FULL, both_ways};
 pub use level::Level;
 pub use mdof_lu::{Capacity, Coefficients};

@@ -1,6 +1,6 @@
 //! Footprints of a GeoJSON file, feature by feature.
 
-use std::io::BufReader;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use geo::Geometry;
@@ -10,6 +10,9 @@ use super::{Gathered, Record};
 use crate::fault::CityError;
 
 pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
+    if let Some(name) = reference_system(path)? {
+        gathered.check_system(&name)?;
+    }
     let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
     for (at, feature) in FeatureReader::from_reader(BufReader::new(file))
         .features()
@@ -27,6 +30,27 @@ pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityE
         gathered.take(record(feature, row))?;
     }
     Ok(())
+}
+
+/// Bytes at the head of a file in which its system of coordinates is named, before the features.
+const HEAD: u64 = 65_536;
+
+/// The name of the system of coordinates, as GeoJSON of 2008 states it before its features:
+/// `"crs": { "type": "name", "properties": { "name": "urn:ogc:def:crs:EPSG::2227" } }`.
+fn reference_system(path: &Path) -> Result<Option<String>, CityError> {
+    let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
+    let mut head = Vec::new();
+    file.take(HEAD)
+        .read_to_end(&mut head)
+        .map_err(|error| CityError::of(path, error))?;
+    let head = String::from_utf8_lossy(&head);
+    let before = head.split("\"features\"").next().unwrap_or_default();
+    let name = before
+        .split_once("\"crs\"")
+        .and_then(|(_, after)| after.split_once("\"properties\""))
+        .and_then(|(_, after)| after.split_once("\"name\""))
+        .and_then(|(_, after)| after.split('"').nth(1));
+    Ok(name.map(str::to_owned))
 }
 
 /// A feature as a row.

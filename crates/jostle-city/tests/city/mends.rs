@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jostle_city::{Inventory, ReadOptions};
+use jostle_city::{Inventory, Neighbours, ReadOptions};
 
 fn read(name: &str, text: &str) -> Result<Inventory, String> {
     let folder = tempfile::tempdir().unwrap();
@@ -188,4 +188,151 @@ fn geometries_within_geometries_without_end_are_refused() {
     assert_eq!(inventory.buildings.len(), 1);
     assert!((inventory.buildings[0].area - 100.0).abs() < 1e-9);
     assert_eq!(inventory.mends.len(), 2);
+}
+
+/// A ring of 40 m about a court of 30 m, in which a building of 29 m stands half a metre from all walls.
+#[test]
+fn courts_are_no_part_of_a_building() {
+    let ring = "POLYGON((0 0, 40 0, 40 40, 0 40, 0 0),(5 5, 35 5, 35 35, 5 35, 5 5))";
+    let inner = "POLYGON((5.5 5.5, 34.5 5.5, 34.5 34.5, 5.5 34.5, 5.5 5.5))";
+    let text = format!("id,storeys,wkt\nring,4,\"{ring}\"\ninner,4,\"{inner}\"\n");
+    let inventory = read("court.csv", &text).unwrap();
+    assert!(inventory.mends.is_empty(), "{:?}", inventory.mends);
+    let [ring, inner] = &inventory.buildings[..] else {
+        panic!("two buildings");
+    };
+    assert!((ring.area - (1600.0 - 900.0)).abs() < 1e-9, "{}", ring.area);
+    assert!((inner.area - 841.0).abs() < 1e-9, "{}", inner.area);
+    let found = Neighbours::within(&inventory.buildings, 1.0);
+    assert!(found.overlaps.is_empty());
+    let [pair] = &found.pairs[..] else {
+        panic!("one pair: {:?}", found.pairs);
+    };
+    assert!((pair.distance - 0.5).abs() < 1e-9, "{pair:?}");
+    assert!((pair.face - 4.0 * 29.0).abs() < 1e-9, "{pair:?}");
+}
+
+/// Names of systems of coordinates in a file decide what its coordinates are.
+#[test]
+fn systems_of_coordinates_are_not_guessed() {
+    let tried = |system: &str, metres: bool, at: f64| {
+        let crs = match system {
+            "" => String::new(),
+            name => {
+                format!("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{name}\"}}}},")
+            }
+        };
+        // A square of 10 m, or of 1e-4 degrees.
+        let side = if at > 180.0 || metres { 10.0 } else { 1e-4 };
+        let end = at + side;
+        let text = format!(
+            "{{\"type\":\"FeatureCollection\",{crs}\"features\":[{{\"type\":\"Feature\",\"properties\":{{\"storeys\":2}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[[{at},40],[{end},40],[{end},{top}],[{at},{top}],[{at},40]]]}}}}]}}",
+            top = 40.0 + side
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("crs.geojson");
+        std::fs::write(&path, text).unwrap();
+        let options = ReadOptions {
+            metres,
+            ..ReadOptions::default()
+        };
+        Inventory::read(&path, &options).map_err(|error| error.to_string())
+    };
+    for (system, metres) in [
+        ("", false),
+        ("", true),
+        ("urn:ogc:def:crs:OGC:1.3:CRS84", false),
+        ("EPSG:4326", false),
+        ("urn:ogc:def:crs:EPSG::32610", true),
+        ("urn:ogc:def:crs:EPSG::2154", true),
+    ] {
+        assert!(tried(system, metres, 10.0).is_ok(), "{system} {metres}");
+    }
+    for (system, metres, wanted) in [
+        ("urn:ogc:def:crs:EPSG::2227", true, "is in feet"),
+        ("EPSG:3857", true, "at the equator alone"),
+        (
+            "http://www.opengis.net/def/crs/EPSG/0/3857",
+            true,
+            "at the equator alone",
+        ),
+        ("urn:ogc:def:crs:OGC:1.3:CRS84", true, "leave out metres"),
+        ("urn:ogc:def:crs:EPSG::32610", false, "--metres"),
+    ] {
+        let error = tried(system, metres, 10.0).expect_err(system);
+        assert!(error.contains(wanted) && error.contains(system), "{error}");
+    }
+    // A house of 10 by 10 degrees.
+    let text = "id,storeys,wkt\n1,2,\"POLYGON((0 0,10 0,10 10,0 10,0 0))\"\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("small.csv");
+    std::fs::write(&path, text).unwrap();
+    let error =
+        Inventory::read(&path, &ReadOptions::default()).expect_err("a house as large as a land");
+    let error = error.to_string();
+    assert!(
+        error.contains("row 1") && error.contains("km²") && error.contains("--metres"),
+        "{error}"
+    );
+}
+
+/// Columns that share an attribute, names that occur twice, dates, and what strings of GEM say.
+#[test]
+fn rows_say_what_they_can() {
+    let square = |x: usize| format!("\"POLYGON(({x} 0,{0} 0,{0} 10,{x} 10,{x} 0))\"", x + 10);
+    let text = format!(
+        "id,levels,storeys,year,type,wkt\na,4,,12/05/1975,CR/LFINF+CDN/HEX:3,{}\nb,,3,c. 1900,CR/LFM+CDH/HEX:5/YEX:1990,{}\na,,,75,S/LFBR+CDL/HBET:4-8,{}\nc,2,5,1931-05,C1M,{}\n",
+        square(0),
+        square(100),
+        square(200),
+        square(300)
+    );
+    let found = read("rows.csv", &text).unwrap();
+    let of = |row: usize| &found.buildings[row];
+    let storeys: Vec<_> = found.buildings.iter().map(|own| own.storeys).collect();
+    assert_eq!(storeys, [Some(4), Some(3), Some(6), Some(2)]);
+    let years: Vec<_> = found.buildings.iter().map(|own| own.year).collect();
+    assert_eq!(years, [Some(1975), Some(1900), None, Some(1931)]);
+    let levels: Vec<_> = found
+        .buildings
+        .iter()
+        .map(|own| own.level.map(|level| level.name()))
+        .collect();
+    assert_eq!(levels, [Some("pre"), Some("high"), Some("low"), None]);
+    assert_eq!([&of(0).id, &of(2).id], ["a", "a (row 3)"]);
+    let said: Vec<&str> = found
+        .mends
+        .iter()
+        .map(|mend| mend.detail.as_str())
+        .collect();
+    assert!(
+        said.iter()
+            .any(|said| said.contains("row 1 has the name a too")),
+        "{said:?}"
+    );
+    assert!(
+        said.iter()
+            .any(|said| said.contains("the year \"75\" is not read")),
+        "{said:?}"
+    );
+}
+
+/// Four storeys of 3.5 m whether the storeys are given or follow from the height; heights in feet are no storeys.
+#[test]
+fn heights_of_floors_are_those_of_the_inventory() {
+    let text = "id,storeys,height,wkt\nboth,4,14,\"POLYGON((0 0,10 0,10 10,0 10,0 0))\"\nheight,,14,\"POLYGON((20 0,30 0,30 10,20 10,20 0))\"\nfeet,3,33,\"POLYGON((40 0,50 0,50 10,40 10,40 0))\"\n";
+    let found = read("heights.csv", text).unwrap();
+    let of = |row: usize| {
+        let own: &jostle_city::Building = &found.buildings[row];
+        (
+            own.likely_storeys(),
+            own.storey_height(),
+            own.likely_height(),
+        )
+    };
+    assert_eq!(of(0), (4, Some(3.5), 14.0));
+    assert_eq!(of(1), (4, Some(3.5), 14.0));
+    let (storeys, storey, height) = of(2);
+    assert_eq!((storeys, storey), (3, None));
+    assert!((height - 9.6).abs() < 1e-12);
 }

@@ -19,6 +19,7 @@ fn rectangle(number: usize, [x, y, width, depth]: [f64; 4], storeys: usize) -> B
         outline,
         storeys: Some(storeys),
         height: None,
+        level: None,
         year: None,
         kind: None,
     }
