@@ -1,6 +1,6 @@
 //! Footprints of a GeoJSON file, feature by feature.
 
-use std::io::{BufReader, Read};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use geo::Geometry;
@@ -32,25 +32,37 @@ pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityE
     Ok(())
 }
 
-/// Bytes at the head of a file in which its system of coordinates is named, before the features.
-const HEAD: u64 = 65_536;
+/// Bytes at both ends of a file in which its system of coordinates is named, before or behind the features.
+const ENDS: u64 = 65_536;
 
-/// The name of the system of coordinates, as GeoJSON of 2008 states it before its features:
+/// The name of the system of coordinates, as GeoJSON of 2008 states it beside its features:
 /// `"crs": { "type": "name", "properties": { "name": "urn:ogc:def:crs:EPSG::2227" } }`.
 fn reference_system(path: &Path) -> Result<Option<String>, CityError> {
-    let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
-    let mut head = Vec::new();
-    file.take(HEAD)
+    let fault = |error: std::io::Error| CityError::of(path, error);
+    let mut file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
+    let size = file.metadata().map_err(fault)?.len();
+    let (mut head, mut tail) = (Vec::new(), Vec::new());
+    (&mut file)
+        .take(ENDS)
         .read_to_end(&mut head)
-        .map_err(|error| CityError::of(path, error))?;
-    let head = String::from_utf8_lossy(&head);
+        .map_err(fault)?;
+    file.seek(SeekFrom::Start(size.saturating_sub(ENDS)))
+        .map_err(fault)?;
+    (&mut file)
+        .take(ENDS)
+        .read_to_end(&mut tail)
+        .map_err(fault)?;
+    let [head, tail] = [head, tail].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
     let before = head.split("\"features\"").next().unwrap_or_default();
-    let name = before
-        .split_once("\"crs\"")
-        .and_then(|(_, after)| after.split_once("\"properties\""))
-        .and_then(|(_, after)| after.split_once("\"name\""))
-        .and_then(|(_, after)| after.split('"').nth(1));
-    Ok(name.map(str::to_owned))
+    let behind = tail.rsplit(']').next().unwrap_or_default();
+    let named = |text: &str| {
+        text.split_once("\"crs\"")
+            .and_then(|(_, after)| after.split_once("\"properties\""))
+            .and_then(|(_, after)| after.split_once("\"name\""))
+            .and_then(|(_, after)| after.split('"').nth(1))
+            .map(str::to_owned)
+    };
+    Ok(named(before).or_else(|| named(behind)))
 }
 
 /// A feature as a row.

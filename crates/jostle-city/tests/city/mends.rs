@@ -215,20 +215,20 @@ fn courts_are_no_part_of_a_building() {
 /// Names of systems of coordinates in a file decide what its coordinates are.
 #[test]
 fn systems_of_coordinates_are_not_guessed() {
-    let tried = |system: &str, metres: bool, at: f64| {
-        let crs = match system {
-            "" => String::new(),
-            name => {
-                format!("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{name}\"}}}},")
-            }
-        };
+    let tried = |system: &str, metres: bool, first: bool| {
+        let crs = format!("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{system}\"}}}}");
         // A square of 10 m, or of 1e-4 degrees.
-        let side = if at > 180.0 || metres { 10.0 } else { 1e-4 };
-        let end = at + side;
-        let text = format!(
-            "{{\"type\":\"FeatureCollection\",{crs}\"features\":[{{\"type\":\"Feature\",\"properties\":{{\"storeys\":2}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[[{at},40],[{end},40],[{end},{top}],[{at},{top}],[{at},40]]]}}}}]}}",
-            top = 40.0 + side
+        let side = if metres { 10.0 } else { 1e-4 };
+        let [x, y] = [10.0 + side, 40.0 + side];
+        let features = format!(
+            "\"features\":[{{\"type\":\"Feature\",\"properties\":{{\"storeys\":2}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[[10,40],[{x},40],[{x},{y}],[10,{y}],[10,40]]]}}}}]"
         );
+        let members = match (system, first) {
+            ("", _) => features,
+            (_, true) => format!("{crs},{features}"),
+            (_, false) => format!("{features}, {crs}"),
+        };
+        let text = format!("{{\"type\":\"FeatureCollection\",{members}}}");
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("crs.geojson");
         std::fs::write(&path, text).unwrap();
@@ -246,7 +246,9 @@ fn systems_of_coordinates_are_not_guessed() {
         ("urn:ogc:def:crs:EPSG::32610", true),
         ("urn:ogc:def:crs:EPSG::2154", true),
     ] {
-        assert!(tried(system, metres, 10.0).is_ok(), "{system} {metres}");
+        for first in [true, false] {
+            assert!(tried(system, metres, first).is_ok(), "{system} {metres}");
+        }
     }
     for (system, metres, wanted) in [
         ("urn:ogc:def:crs:EPSG::2227", true, "is in feet"),
@@ -259,8 +261,10 @@ fn systems_of_coordinates_are_not_guessed() {
         ("urn:ogc:def:crs:OGC:1.3:CRS84", true, "leave out metres"),
         ("urn:ogc:def:crs:EPSG::32610", false, "--metres"),
     ] {
-        let error = tried(system, metres, 10.0).expect_err(system);
-        assert!(error.contains(wanted) && error.contains(system), "{error}");
+        for first in [true, false] {
+            let error = tried(system, metres, first).expect_err(system);
+            assert!(error.contains(wanted) && error.contains(system), "{error}");
+        }
     }
     // A house of 10 by 10 degrees.
     let text = "id,storeys,wkt\n1,2,\"POLYGON((0 0,10 0,10 10,0 10,0 0))\"\n";
