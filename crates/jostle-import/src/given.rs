@@ -155,6 +155,7 @@ pub(crate) fn assembled(
 /// What is missing for each of the ways.
 pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
     let floors = facts.floors()?;
+    facts.choose_displacements(&floors)?;
     let cases = unit_cases(facts, options)?;
     let in_both = options
         .direction

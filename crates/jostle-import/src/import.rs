@@ -205,6 +205,7 @@ pub fn import(
         }
         towers::choose(&mut facts, options.diaphragm.as_deref())?;
         facts.complete_stories();
+        facts.check_order()?;
         refine_periods(&mut facts);
         let built = build(&mut facts, options)?;
         add(
