@@ -1,6 +1,6 @@
 //! Ground motion fields of OpenQuake: a table of intensities in g of every event at every site, and a table of the sites.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use jostle::statics::STANDARD_GRAVITY;
@@ -45,6 +45,7 @@ pub(super) fn read(
     let mut columns: Vec<usize> = Vec::new();
     let mut events: BTreeMap<Event, usize> = BTreeMap::new();
     let mut values: Vec<(usize, usize, Vec<f64>)> = Vec::new();
+    let mut seen: HashSet<(usize, usize)> = HashSet::new();
     let both = std::cell::RefCell::new((&mut periods, &mut columns));
     rows(
         path,
@@ -69,6 +70,7 @@ pub(super) fn read(
             Ok(())
         },
         &mut |line, [event, site], row| {
+            let named = [event, site];
             let Some(site) = known.get(site) else {
                 return Err(CityError::of(
                     path,
@@ -83,6 +85,15 @@ pub(super) fn read(
             let Some(place) = place.get(site) else {
                 return Ok(());
             };
+            if !seen.insert((*place, event)) {
+                return Err(CityError::of(
+                    path,
+                    format!(
+                        "line {line}: event {} has a second row for site {}",
+                        named[0], named[1]
+                    ),
+                ));
+            }
             let (periods, columns) = &*both.borrow();
             let mut intensities = Vec::with_capacity(columns.len());
             for (at, period) in columns.iter().zip(periods.iter()) {

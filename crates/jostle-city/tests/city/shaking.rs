@@ -190,6 +190,10 @@ fn maps_that_do_not_fit_are_refused_with_a_remedy() {
     write("other.csv", "event_id,site_id,gmv_PGA\n1,2,0.1\n");
     write("pgv.csv", "event_id,site_id,gmv_PGV\n1,1,0.1\n");
     write("strong.csv", "event_id,site_id,gmv_PGA\n1,1,30\n");
+    write(
+        "twice.csv",
+        "event_id,site_id,gmv_PGA\n7,1,0.1\n8,1,0.1\n7,1,0.3\n",
+    );
     write("word.csv", "event_id,site_id,gmv_PGA\n1,1,x\n");
     let record = "record = \"el-centro-1940-ns\"\n";
     for (motion, wanted) in [
@@ -229,6 +233,10 @@ fn maps_that_do_not_fit_are_refused_with_a_remedy() {
         (
             format!("{record}gmf = \"word.csv\"\nsites = \"sites.csv\""),
             "line 2: PGA: expected a number",
+        ),
+        (
+            format!("{record}gmf = \"twice.csv\"\nsites = \"sites.csv\""),
+            "line 4: event 7 has a second row for site 1",
         ),
         (
             format!("{record}gmf = \"strong.csv\"\nsites = \"sites.csv\""),
