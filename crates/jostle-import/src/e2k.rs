@@ -225,6 +225,9 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             sections.bottom = ["BB", "TFB"].map(size);
             sections.fill = record.value("FILLMATERIAL").map(str::to_owned);
         }
+        if let Some(product) = record.number("I23") {
+            sections.product = product * length.powi(4);
+        }
         for (index, (stated, name)) in sections.stated.iter_mut().zip(NUMBERS).enumerate() {
             let power = if index < 3 { 2 } else { 4 };
             *stated = record

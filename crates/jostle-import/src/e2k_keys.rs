@@ -41,14 +41,10 @@ pub(crate) const KINDS: &[Kind] = &[
     },
     Kind {
         name: "FRAMESECTION",
-        used: "MATERIAL SHAPE D B TF TW T BB TFB FILLMATERIAL AREA AS2 AS3 TORSION I22 I33 AMOD A2MOD A3MOD JMOD I2MOD I3MOD",
+        used: "MATERIAL SHAPE D B TF TW T BB TFB FILLMATERIAL AREA AS2 AS3 TORSION I22 I33 I23 AMOD A2MOD A3MOD JMOD I2MOD I3MOD",
         harmless: "MMOD WMOD S33POS S33NEG S22POS S22NEG S33 S22 Z33 Z22 R33 R22 CGOFFSET3 CGOFFSET2 FILLETRADIUS COLOR NOTES GUID \
             DESIGNTYPE NOTIONALSIZE NOTIONALAUTO FILE PROPERTYFILE ENCASEMENTMATERIAL EMBEDDEDSECTION",
-        missing: &[Missing {
-            keys: "I23",
-            neutral: &["0"],
-            meaning: "products of inertia of sections whose axes are not principal ones: jostle's bend about their local axes alone",
-        }],
+        missing: &[],
     },
     Kind {
         name: "SHELLPROP",

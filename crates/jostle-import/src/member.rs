@@ -76,6 +76,8 @@ pub(crate) struct SectionFacts {
     pub(crate) fill: Option<String>,
     /// The six numbers that the file states \[m², m⁴\].
     pub(crate) stated: [Option<f64>; 6],
+    /// Product of inertia I23, of sections whose axes 2 and 3 are not principal ones \[m⁴\].
+    pub(crate) product: f64,
     /// Factors on them.
     pub(crate) factors: [f64; 6],
 }
@@ -91,6 +93,7 @@ impl Default for SectionFacts {
             bottom: [None; 2],
             fill: None,
             stated: [None; 6],
+            product: 0.0,
             factors: [1.0; 6],
         }
     }

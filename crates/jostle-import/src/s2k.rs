@@ -211,6 +211,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 plates: ["tf", "tw"].map(size),
                 bottom: ["t2b", "tfb"].map(size),
                 fill: None,
+                product: value(row, "I23").unwrap_or(0.0) * length.powi(4),
                 stated: std::array::from_fn(|index| {
                     let power = if index < 3 { 2 } else { 4 };
                     value(row, NUMBERS[index]).map(|number| number * length.powi(power))
@@ -346,10 +347,14 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 .push([at[0], at[1]]);
         }
     }
-    let lack = match of("FRAME ADDED MASS ASSIGNMENTS").next().is_some()
-        || of("AREA ADDED MASS ASSIGNMENTS").next().is_some()
-    {
-        true => Some("masses are on frames or areas as well as on joints"),
+    let elsewhere = [
+        "FRAME ADDED MASS ASSIGNMENTS",
+        "AREA ADDED MASS ASSIGNMENTS",
+        "JOINT ADDED MASS BY WEIGHT ASSIGNMENTS",
+        "JOINT ADDED MASS BY VOLUME ASSIGNMENTS",
+    ];
+    let lack = match elsewhere.iter().any(|table| of(table).next().is_some()) {
+        true => Some("masses are on frames or areas, or by weight or volume, as well as on joints"),
         false => not_on_joints_alone(of("MASS SOURCE"), of("MASSES 1 - MASS SOURCE")),
     };
     match lack {

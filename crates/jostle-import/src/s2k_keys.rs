@@ -17,6 +17,16 @@ pub(crate) const KINDS: &[Kind] = &[
         missing: &[],
     },
     Kind {
+        name: "ACTIVE DEGREES OF FREEDOM",
+        used: "",
+        harmless: "",
+        missing: &[Missing {
+            keys: "UX UY UZ RX RY RZ",
+            neutral: &["Yes"],
+            meaning: "degrees of freedom that the analysis does not have: jostle's building moves along X and Y and turns; --direction x or y gives one in a plane",
+        }],
+    },
+    Kind {
         name: "JOINT RESTRAINT ASSIGNMENTS",
         used: "Joint U1 U2 U3 R1 R2 R3",
         harmless: "",
@@ -72,14 +82,10 @@ pub(crate) const KINDS: &[Kind] = &[
     },
     Kind {
         name: "FRAME SECTION PROPERTIES 01 - GENERAL",
-        used: "SectionName Material Shape t3 t2 tf tw t2b tfb Area TorsConst I22 I33 AS2 AS3 AMod A2Mod A3Mod JMod I2Mod I3Mod",
+        used: "SectionName Material Shape t3 t2 tf tw t2b tfb Area TorsConst I22 I33 I23 AS2 AS3 AMod A2Mod A3Mod JMod I2Mod I3Mod",
         harmless: "S33 S22 Z33 Z22 R33 R22 S33Top S33Bot S22Left S22Right CGOffset3 CGOffset2 EccV2 EccV3 EccV2Top Cw FilletRad \
             ConcCol ConcBeam Color TotalWt TotalMass FromFile FileName SectInFile MMod WMod GUID Notes NotionalSize",
-        missing: &[Missing {
-            keys: "I23",
-            neutral: &["0"],
-            meaning: "products of inertia of sections whose axes are not principal ones: jostle's bend about their local axes alone",
-        }],
+        missing: &[],
     },
     Kind {
         name: "FRAME PROPERTY MODIFIERS",
@@ -142,6 +148,8 @@ pub(crate) const READ: &[&str] = &[
     "MASSES 1 - MASS SOURCE",
     "FRAME ADDED MASS ASSIGNMENTS",
     "AREA ADDED MASS ASSIGNMENTS",
+    "JOINT ADDED MASS BY WEIGHT ASSIGNMENTS",
+    "JOINT ADDED MASS BY VOLUME ASSIGNMENTS",
     "FRAME RELEASE ASSIGNMENTS 2 - PARTIAL FIXITY",
     "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED",
     "JOINT SPRING ASSIGNMENTS 2 - COUPLED",
@@ -159,7 +167,6 @@ pub(crate) const HARMLESS: &[&str] = &[
     "GROUPS",
     "REBAR SIZES",
     "FUNCTION",
-    "ACTIVE DEGREES",
     "OVERWRITES",
     "MATERIAL PROPERTIES 01",
     "MATERIAL PROPERTIES 03",

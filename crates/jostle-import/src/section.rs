@@ -15,11 +15,11 @@ pub(crate) type Lack = (String, &'static str);
 /// Remedy for what the file does not say in numbers.
 const BY_NUMBERS: &str = "export the model with numbers for this section, or take the stiffness from results: unit loads on every diaphragm, as the how-to on ETABS has it";
 
-/// Rigidities of a member.
+/// Rigidities of a member about its principal axes, and the turn of these from its local axes \[degrees\].
 ///
 /// # Errors
 /// A section or material without numbers.
-pub(crate) fn rigidity(member: &Member, model: &TextModel) -> Result<Rigidity, Lack> {
+pub(crate) fn rigidity(member: &Member, model: &TextModel) -> Result<(Rigidity, f64), Lack> {
     let name = &member.section;
     let Some(section) = model.sections.get(name).filter(|_| !name.is_empty()) else {
         return Err((
@@ -36,10 +36,45 @@ pub(crate) fn rigidity(member: &Member, model: &TextModel) -> Result<Rigidity, L
             *value += moduli[index] * inside[index];
         }
     }
-    for (value, factor) in rigidity.iter_mut().zip(member.factors_with(section)) {
+    let factors = member.factors_with(section);
+    for (value, factor) in rigidity.iter_mut().zip(factors) {
         *value *= factor;
     }
-    Ok(rigidity)
+    if section.product == 0.0 {
+        return Ok((rigidity, 0.0));
+    }
+    if factors[4] != factors[5] {
+        return Err((
+            format!(
+                "has the section \"{name}\" with a product of inertia I23 and different factors on I22 and I33"
+            ),
+            BY_NUMBERS,
+        ));
+    }
+    Ok(principal(
+        rigidity,
+        factors[4] * moduli[4] * section.product,
+    ))
+}
+
+/// Rigidities about principal axes, by the product of inertia times the modulus, and the turn of these axes \[degrees\].
+///
+/// Displacements v along 2 and w along 3 bend by [EI33 EI23; EI23 EI22] over (v'', w''), which is diagonal in axes that are turned by
+/// half the angle of tan = 2 I23/(I33 − I22).
+fn principal(mut rigidity: Rigidity, product: f64) -> (Rigidity, f64) {
+    let [_, shear_2, shear_3, _, weak, strong] = rigidity;
+    let (mean, half) = (0.5 * (strong + weak), 0.5 * (strong - weak));
+    let radius = half.hypot(product);
+    let turn = 0.5 * product.atan2(half);
+    let (sin, cos) = turn.sin_cos();
+    rigidity[4] = mean - radius;
+    rigidity[5] = mean + radius;
+    // Without shear areas there is no deformation by shear.
+    if shear_2 > 0.0 && shear_3 > 0.0 {
+        rigidity[1] = cos * cos * shear_2 + sin * sin * shear_3;
+        rigidity[2] = sin * sin * shear_2 + cos * cos * shear_3;
+    }
+    (rigidity, turn.to_degrees())
 }
 
 /// Moduli that belong to the six numbers of a section \[Pa\].
@@ -357,7 +392,7 @@ mod tests {
             model.sections.insert("X".into(), found);
             let mut member = Member::new("a column".into(), [[0.0; 3], [0.0, 0.0, 4.0]]);
             member.section = "X".into();
-            rigidity(&member, &model)
+            rigidity(&member, &model).map(|found| found.0)
         };
         let (steel, concrete) = (200e9, 30e9);
         let found = rigidities("Filled Steel Tube", Some("C")).unwrap();
@@ -396,6 +431,23 @@ mod tests {
                     .contains("profile in concrete")
             );
         }
+    }
+
+    /// An equal angle: principal axes at 45°, and second moments by thin legs of its own axes, I ± I23.
+    #[test]
+    fn principal_axes() {
+        let (stiffness, turn) = principal([1.0, 0.5, 0.5, 1.0, 4.0, 4.0], -2.5);
+        assert!((turn + 45.0).abs() < 1e-12, "{turn}");
+        assert_eq!(stiffness, [1.0, 0.5, 0.5, 1.0, 1.5, 6.5]);
+        // A rectangle of 2 by 1 that stands turned by 30°.
+        let (sin, cos) = 30_f64.to_radians().sin_cos();
+        let [strong, weak] = [8.0 / 12.0, 2.0 / 12.0];
+        let i33 = strong * cos * cos + weak * sin * sin;
+        let i22 = strong * sin * sin + weak * cos * cos;
+        let (stiffness, turn) =
+            principal([1.0, 0.0, 0.0, 1.0, i22, i33], (strong - weak) * sin * cos);
+        assert!((turn - 30.0).abs() < 1e-12, "{turn}");
+        assert!((stiffness[4] - weak).abs() < 1e-15 && (stiffness[5] - strong).abs() < 1e-15);
     }
 
     /// The numbers of the file count more than those of its shape.

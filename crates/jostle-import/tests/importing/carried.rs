@@ -495,11 +495,15 @@ fn masses_are_whole_or_refused() {
     );
     for (table, text) in [
         ("FRAME ADDED MASS ASSIGNMENTS", "Frame=1   MassPerLen=2"),
+        (
+            "JOINT ADDED MASS BY WEIGHT ASSIGNMENTS",
+            "Joint=1   Wt1=100",
+        ),
         ("AREA ADDED MASS ASSIGNMENTS", "Area=1   MassPerArea=2"),
     ] {
         refused(
             sap2000(&row(table, text), &plain()),
-            &["masses are on frames or areas", ".OUT"],
+            &["masses are on frames or areas, or by weight", ".OUT"],
         );
     }
     let older = |from: &str| {
@@ -693,6 +697,11 @@ fn what_is_not_carried_over_says_what_that_means() {
             ["local axes by directions", "turned"],
         ),
         (
+            "ACTIVE DEGREES OF FREEDOM",
+            "UX=Yes   UY=No   UZ=Yes   RX=No   RY=Yes   RZ=No",
+            ["UY of ACTIVE DEGREES OF FREEDOM (once)", "--direction"],
+        ),
+        (
             "JOINT CONSTRAINT ASSIGNMENTS",
             "Joint=1   Constraint=BODY1",
             ["BODY1", "periods are longer"],
@@ -763,4 +772,50 @@ fn keys_of_other_versions() {
         ),
         &["cannot compute from its sizes"],
     );
+}
+
+/// A rectangle that is turned by 30°, and its second moments and product about axes that are not.
+#[test]
+fn sections_bend_about_their_principal_axes() {
+    let of = |section: &str, angle: &str| {
+        let text = replaced(
+            &e2k(),
+            "SHAPE \"Concrete Rectangular\"  D 500 B 500",
+            section,
+        );
+        let text = replaced(
+            &text,
+            "SECTION \"C1\"CARD",
+            &format!("SECTION \"C1\" {angle} CARD"),
+        );
+        let found = etabs(&text, &members()).unwrap_or_else(|error| panic!("{error}"));
+        periods(&model(&found), 6)
+    };
+    let turned = of("SHAPE \"Concrete Rectangular\"  D 700 B 300", "ANG 30");
+    let straight = of("SHAPE \"Concrete Rectangular\"  D 700 B 300", "");
+    let (depth, width) = (700.0_f64, 300.0_f64);
+    let [strong, weak] = [[depth, width], [width, depth]].map(|[d, b]| b * d.powi(3) / 12.0);
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    let ratio = width / depth;
+    // Roark: torsion of a rectangle.
+    let torsion = depth * width.powi(3) * (1.0 / 3.0 - 0.21 * ratio * (1.0 - ratio.powi(4) / 12.0));
+    let area = depth * width;
+    let general = |sign: f64| {
+        of(
+            &format!(
+                "SHAPE \"SD Section\" AREA {area} AS2 {shear} AS3 {shear} TORSION {torsion} I33 {} I22 {} I23 {}",
+                strong * cos * cos + weak * sin * sin,
+                strong * sin * sin + weak * cos * cos,
+                sign * (strong - weak) * sin * cos,
+                shear = 5.0 / 6.0 * area,
+            ),
+            "",
+        )
+    };
+    let off = difference(&general(1.0), &turned);
+    assert!(off < 1e-8, "{off:.1e}");
+    // Neither the other sign nor none is the same.
+    for other in [general(-1.0), general(0.0), straight] {
+        assert!(difference(&other, &turned) > 1e-3);
+    }
 }
