@@ -291,11 +291,7 @@ fn towers_are_not_merged() {
         "FRAME SECTION ASSIGNMENTS",
         "Frame=9000   AnalSect=B1",
     );
-    is_the_frame(
-        sap2000(&tie, &members())
-            .and(sap2000(&tie, &tower("D3")))
-            .or(sap2000(&tie, &tower("D3"))),
-    );
+    is_the_frame(sap2000(&tie, &tower("D3")));
 }
 
 /// The same in ETABS, where storeys hold both towers, and masses come from a listing with both.
@@ -818,4 +814,52 @@ fn sections_bend_about_their_principal_axes() {
     for other in [general(-1.0), general(0.0), straight] {
         assert!(difference(&other, &turned) > 1e-3);
     }
+}
+
+/// Every factor of a member acts on the number of its section that it names.
+#[test]
+fn factors_of_members_act_on_the_numbers_that_they_name() {
+    let values = [0.9, 0.8, 0.7, 0.1, 0.5, 0.6];
+    let pairs = |names: [&str; 6], equal: &str| {
+        let pairs = names.iter().zip(values);
+        let pairs = pairs.map(|(name, value)| format!("{name}{equal}{value}"));
+        pairs.collect::<Vec<_>>().join("   ")
+    };
+    let of = |found: Result<Imported, String>| {
+        periods(&model(&found.unwrap_or_else(|error| panic!("{error}"))), 6)
+    };
+    let sections = pairs(["AMOD", "A2MOD", "A3MOD", "JMOD", "I2MOD", "I3MOD"], " ");
+    let own = pairs(
+        [
+            "PROPMODA",
+            "PROPMODA2",
+            "PROPMODA3",
+            "PROPMODT",
+            "PROPMODI22",
+            "PROPMODI33",
+        ],
+        " ",
+    );
+    let (from, section) = ("JMOD 0.1 I2MOD 0.7 I3MOD 0.7", "SECTION \"C1\"");
+    let by_sections = of(etabs(&e2k().replacen(from, &sections, 1), &members()));
+    let bare = e2k().replacen(from, "", 1);
+    let by_members = replaced(&bare, section, &format!("{own} {section}"));
+    assert!(difference(&of(etabs(&by_members, &members())), &by_sections) < 1e-9);
+    let columns = pairs(["AMod", "A2Mod", "A3Mod", "JMod", "I2Mod", "I3Mod"], "=");
+    let own = pairs(
+        ["AMod", "AS2Mod", "AS3Mod", "JMod", "I22Mod", "I33Mod"],
+        "=",
+    );
+    let from = "AMod=1   A2Mod=1   A3Mod=1   JMod=0.1   I2Mod=0.7   I3Mod=0.7";
+    let by_sections = of(sap2000(&by_sizes().replacen(from, &columns, 1), &members()));
+    let bare = by_sizes().replacen(from, "AMod=1", 1);
+    let frames = bare.lines().filter(|line| line.contains("AnalSect=C1 "));
+    let rows: Vec<String> = frames
+        .map(|line| {
+            let frame = line.split_whitespace().next().expect("a frame");
+            format!("{frame}   {own}")
+        })
+        .collect();
+    let by_members = with_row(&bare, "FRAME PROPERTY MODIFIERS", &rows.join("\n   "));
+    assert!(difference(&of(sap2000(&by_members, &members())), &by_sections) < 1e-9);
 }
