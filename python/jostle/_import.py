@@ -67,7 +67,7 @@ def import_etabs(
         by: ``"flexibility"``, ``"modes"``, ``"stiffness"``, ``"frame"`` or ``"members"``; by default the first one that the
             files allow.
         gap: width of the gaps between neighbours.
-        case: load case of Story Stiffness.
+        case: load case of Story Stiffness, or modal case.
         diaphragm: diaphragm of this building, if storeys have several.
         unit_force: force of load cases named ``FX STORY`` and ``FY STORY``.
         unit_moment: moment of load cases named ``MZ STORY``.
@@ -107,7 +107,7 @@ def import_sap2000(
         direction: ``"x"``, ``"y"`` or ``"both"``.
         by: source of the stiffness.
         gap: width of the gaps between neighbours.
-        case: load case of storey stiffnesses.
+        case: load case of storey stiffnesses, or modal case.
         diaphragm: diaphragm of this building.
         unit_force: force of unit load cases.
         unit_moment: moment of unit load cases.

@@ -46,6 +46,8 @@ def _toml(read: CondensedModel, name: str, archive: str, script: str) -> str:
         lines.append(f"plan = [{', '.join(plans)}]")
     if read.angle is not None:
         lines.append(f'angle = "{read.angle:g} deg"')
+    if read.elevation:
+        lines.append(f'elevation = "{read.elevation!r} m"  # of the lowest node, as in the script')
     if read.stated is not None:
         stated = ", ".join(f"{key} = {json.dumps(value)}" for key, value in read.stated.items())
         lines.append(f"damping = {{ {stated} }}")
@@ -122,7 +124,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(f"warning: {text}", file=sys.stderr)
         path, archive = _write(read, name, asked.script, to, asked.force)
     except (JostleError, ImportError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        # The option of the command, not the argument of the function.
+        text = str(error).replace("ports=[…]", "--port NODE")
+        print(f"error: {text}", file=sys.stderr)
         return 2
     assert read.periods is not None
     periods = ", ".join(f"{value:.5g}" for value in read.periods[:3])

@@ -5,8 +5,11 @@ from __future__ import annotations
 import contextlib
 import io
 import math
+import re
+import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._builders import Given, Table
@@ -53,6 +56,8 @@ class CondensedModel:
     nodes: list[int] = field(default_factory=list)
     equations: int = 0
     periods: _Array | None = None
+    #: Height of the lowest node in the script [m].
+    elevation: float = 0.0
 
     def given(self, name: str | None) -> Given:
         matrices: dict[str, object] = {"stiffness": self.stiffness, "mass": self.mass}
@@ -63,8 +68,15 @@ class CondensedModel:
         if self.heights is not None:
             matrices["heights"] = self.heights
         angle = None if self.angle is None else f"{self.angle:g} deg"
+        elevation = self.elevation or None
         return Given(
-            name, matrices=matrices, ports=self.ports, plan=self.plan, angle=angle, damping=self.stated
+            name,
+            matrices=matrices,
+            ports=self.ports,
+            plan=self.plan,
+            angle=angle,
+            elevation=elevation,
+            damping=self.stated,
         )
 
 
@@ -233,6 +245,8 @@ def read_model(
         raise _fault(
             "all nodes lie at one height", f"coordinate {up + 1} is the vertical one: {'xyz'[up]}"
         )
+    if dimensions == 3:
+        _refuse_upward_y(nodes, height)
     remarks = _state_remarks(ops, nodes)
     raw = mass.copy()
     _drop_fillers(mass, turns, height, nodes)
@@ -266,6 +280,7 @@ def read_model(
     keep, result = read
     result.remarks[:0] = remarks
     result.equations = len(mass)
+    result.elevation = bottom if abs(bottom) > _LEVEL * height else 0.0
     condense = _condensation(stiffness, keep, resisted, nodes)
     result.stiffness = _positive(_symmetric("condensed stiffness", condense.T @ stiffness @ condense))
     _say_units(result, units)
@@ -275,7 +290,8 @@ def read_model(
         result.stated = damping
     elif not np.abs(viscous).max() > 0.0:
         result.remarks.append(
-            "the model has no damping, so jostle uses 5 % of critical in modes 1 and 3; a damping ratio of 0 keeps it undamped"
+            "the model has no damping in its matrix, where objects of the command damping are not, so jostle uses 5 % of critical in "
+            "modes 1 and 3; a damping ratio of 0 keeps it undamped"
         )
     elif proportional < 1e-6 and min(alpha_beta) >= 0.0:
         result.stated = {"alpha": f"{alpha_beta[0]!r} 1/s", "beta": f"{alpha_beta[1]!r} s"}
@@ -297,17 +313,120 @@ def _state_remarks(ops: Any, nodes: list[_Node]) -> list[str]:
         remarks.append(
             "the model is displaced: its stiffness is the tangent at this state, with the P-Delta effect of the loads on it"
         )
-    elastic = ("elastic", "truss", "zerolength", "twonodelink", "shell", "quad", "brick")
     other: dict[str, int] = {}
+    yields = _yielding(ops)
     for tag in ops.getEleTags() or []:
-        with contextlib.suppress(Exception):
-            kind = str(ops.eleType(tag))
-            if not kind.lower().startswith(elastic):
-                other[kind] = other.get(kind, 0) + 1
+        kind = str(ops.eleType(tag))
+        lower = kind.lower()
+        if lower.startswith("elastic"):
+            continue
+        if lower.startswith(_BY_MATERIAL):
+            # A solid of which nothing is printed is taken as elastic, as most are.
+            found = yields.get(tag, [] if lower.startswith(_SOLIDS) else ["materials that OpenSees does not print"])
+            if not found:
+                continue
+            kind = f"{kind} with {' and '.join(found)}"
+        other[kind] = other.get(kind, 0) + 1
     if other:
-        found = ", ".join(f"{count} {kind}" for kind, count in sorted(other.items()))
-        remarks.append(f"the building is elastic in jostle; {found} enter with their current tangent and do not yield")
+        named = ", ".join(f"{count} {kind}" for kind, count in sorted(other.items()))
+        remarks.append(f"the building is elastic in jostle; {named} enter with their current tangent and do not yield")
     return remarks
+
+
+#: Beginnings of element types that are as elastic as their materials.
+_SOLIDS = ("shell", "quad", "fournodequad", "brick", "stdbrick", "tri31", "ssp")
+_BY_MATERIAL = ("truss", "zerolength", "twonodelink", *_SOLIDS)
+#: Materials that combine others, and have no limits of their own.
+_COMBINED = ("ParallelMaterial", "SeriesMaterial", "InitStrainMaterial")
+#: A material, section or element, as OpenSees prints it: name, type and the rest of its line.
+_PRINTED = re.compile(r'\{"name": "?(-?\d+)"?, "type": "(\w+)"(.*)')
+#: A material that has no JSON, such as a dashpot: type, tag.
+_PLAIN = re.compile(r"(\w+?)(?:Material)?,? tag: (\d+)\s*$")
+_BLOCK = re.compile(r'"(uniaxialMaterials|ndMaterials|sections|elements)": \[')
+
+
+def _yielding(ops: Any) -> dict[int, list[str]]:
+    """Types of the materials of every element that are not linear; elements of which nothing is known are missing.
+
+    The text of printModel is read by lines: materials without JSON make it invalid as a whole.
+    """
+    with tempfile.TemporaryDirectory() as folder, _quiet():
+        path = Path(folder) / "model.json"
+        try:
+            ops.printModel("-JSON", "-file", str(path))
+            text = path.read_text("utf-8", "replace")
+        except Exception:
+            return {}
+    # Block, tag: type and what follows it.
+    known: dict[tuple[str, int], tuple[str, str]] = {}
+    block, last = "", ("", 0)
+    for line in text.splitlines():
+        begins = _BLOCK.search(line)
+        if begins:
+            block = begins[1]
+        printed, plain = _PRINTED.search(line), _PLAIN.match(line)
+        if printed:
+            last = (block, int(printed[1]))
+            known[last] = (printed[2], printed[3])
+        elif plain:
+            last = (block, int(plain[2]))
+            known[last] = (plain[1], "")
+        elif last in known:
+            kind, rest = known[last]
+            known[last] = (kind, f"{rest}\n{line}")
+
+    def tags(rest: str) -> list[int]:
+        listed = re.search(r'"[Mm]aterials?": (\[[^]]*\]|"?-?\d+)', rest)
+        return [int(tag) for tag in re.findall(r"-?\d+", listed[1])] if listed else []
+
+    def limits(where: str, tag: int, depth: int = 0) -> list[str]:
+        """Types that are not linear, of a material or a section."""
+        if (where, tag) not in known or depth > 20:
+            return ["a material that OpenSees does not print"]
+        kind, rest = known[where, tag]
+        if kind == "ElasticMaterial":
+            ways = dict(re.findall(r'"(Epos|Eneg)": ([^,}\s]+)', rest))
+            return [] if ways.get("Epos") == ways.get("Eneg") else [kind]
+        if kind == "Viscous":
+            return [] if re.search(r"Alpha: 1\s", f"{rest}\n") else [kind]
+        if kind in _COMBINED:
+            return [found for inner in tags(rest) for found in limits(where, inner, depth + 1)]
+        return [] if kind.startswith("Elastic") and kind not in _ELASTIC_IN_NAME else [kind]
+
+    found: dict[int, list[str]] = {}
+    for (where, tag), (kind, rest) in known.items():
+        if where != "elements":
+            continue
+        solid = kind.lower().startswith(_SOLIDS)
+        section = re.search(r'"section": "?(-?\d+)', rest)
+        kinds = [own for inner in tags(rest) for own in limits("ndMaterials" if solid else "uniaxialMaterials", inner)]
+        if section:
+            kinds += limits("sections", int(section[1]))
+        if section or tags(rest):
+            found[tag] = list(dict.fromkeys(kinds))
+    return found
+
+
+#: Types that yield, or are not linear, though their names begin with Elastic.
+_ELASTIC_IN_NAME = ("ElasticPPMaterial", "ElasticPP", "ElasticPPGap", "ElasticMultiLinear", "ElasticBilin", "ElasticPowerFunc")
+
+
+def _refuse_upward_y(nodes: list[_Node], height: float) -> None:
+    """Raises an error for a model whose second coordinate is the height, by its diaphragms or its supports."""
+    problem = ""
+    if any(node.tied == {0, 2, 4} for node in nodes):
+        problem = "rigid diaphragms lie in the plane of x and z, so y is the height"
+    held = [node.at for node in nodes if not node.tied and max(node.equations[:3]) < 0]
+    if held and not problem:
+        low_y, low_z = (min(node.at[axis] for node in nodes) for axis in (1, 2))
+        spread_y, spread_z = (max(at[axis] for at in held) - low for axis, low in ((1, low_y), (2, low_z)))
+        if spread_y < _LEVEL * height and spread_z > _LEVEL * height:
+            problem = "all supports are at the lowest y and at several z, so y is the height"
+    if problem:
+        raise _fault(
+            f"{problem}, but jostle takes z as the height",
+            "build the model with z upward: exchange y and z of nodes, masses, supports, vecxz and diaphragms",
+        )
 
 
 def _drop_fillers(mass: _Array, turns: npt.NDArray[np.bool_], height: float, nodes: list[_Node]) -> None:
@@ -534,6 +653,14 @@ def _in_plan(
             "height": level.height,
         }
     reduced = mass[np.ix_(keep, keep)]
+    for index, (level, _, retained) in enumerate(diaphragms):
+        along_x, along_y = (float(reduced[3 * index + axis, 3 * index + axis]) for axis in (0, 1))
+        if abs(along_x - along_y) > 1e-6 * max(along_x, along_y):
+            raise _fault(
+                f"the floor at {level.height:.4g} m (node {retained.tag}) has {along_x:.6g} kg along x and {along_y:.6g} kg along y; "
+                "a floor with a plan has one mass",
+                f"give node {retained.tag} and those that it holds the same mass along x and y",
+            )
     read = CondensedModel(
         mass=reduced,
         stiffness=stiffness,

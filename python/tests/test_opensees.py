@@ -403,3 +403,107 @@ def test_the_command_writes_a_model_file(
     assert "was not written by jostle" in capsys.readouterr().err
     assert to.read_text() == "# mine\n"
     assert not list(tmp_path.glob(".*"))
+
+
+def test_materials_that_yield_in_springs_and_trusses_are_named() -> None:
+    materials: dict[int, tuple[Any, ...]] = {
+        1: ("Elastic", 1e4),
+        2: ("Steel01", 100.0, 1e4, 0.01),
+        3: ("ElasticPP", 1e4, 0.01),
+        4: ("Parallel", 1, 2),
+        5: ("Parallel", 1, 1),
+        6: ("Elastic", 1e4, 0.0, 5e3),
+        7: ("Viscous", 10.0, 1.0),
+        8: ("Viscous", 10.0, 0.5),
+        9: ("ElasticMultiLinear", "-strain", -1.0, 0.0, 1.0, "-stress", -1.0, 0.0, 1.0),
+    }
+
+    def remarks(kind: str, *tags: int) -> str:
+        ops.wipe()
+        portal()
+        for tag, values in materials.items():
+            ops.uniaxialMaterial(values[0], tag, *values[1:])
+        if kind == "truss":
+            ops.element("truss", 50, 3, 6, 0.1, *tags)
+        elif kind == "twoNodeLink":
+            ops.element("twoNodeLink", 50, 3, 6, "-mat", *tags, "-dir", *range(1, len(tags) + 1))
+        else:
+            ops.node(60, *ops.nodeCoord(5))
+            ops.fix(60, 1, 1, 1)
+            ops.element("zeroLength", 50, 60, 5, "-mat", *tags, "-dir", *range(1, len(tags) + 1))
+        return " ".join(read_model(ops, 1, "left", "kN, m", None, None, None).remarks)
+
+    for kind in ("truss", "twoNodeLink", "zeroLength"):
+        for linear in (1, 5):
+            assert "do not yield" not in remarks(kind, linear), (kind, linear)
+        for tag, name in (
+            (2, "Steel01"), (3, "ElasticPPMaterial"), (4, "Steel01"), (6, "ElasticMaterial"), (9, "ElasticMultiLinear"),
+        ):  # fmt: skip
+            said = remarks(kind, tag)
+            assert f"1 {kind[0].upper()}{kind[1:]} with {name} enter with their current tangent" in said, (kind, tag, said)
+    # Dashpots print no JSON, which makes that of the model invalid as a whole.
+    assert "do not yield" not in remarks("zeroLength", 1, 7)
+    assert "ZeroLength with Viscous and Steel01 enter" in remarks("zeroLength", 8, 2)
+
+
+def space(up: int, at_supports: float = 0.0) -> list[int]:
+    """A storey on four columns in space, whose height is y (1) or z (2); its nodes."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    other = 3 - up
+    ops.geomTransf("Linear", 1, 1.0, 0.0, 0.0)
+    nodes = []
+    for index, (x, across) in enumerate(((0.0, 0.0), (6.0, 0.0), (6.0, 5.0), (0.0, 5.0))):
+        for level, height in enumerate((at_supports, at_supports + 4.0)):
+            place = [x, 0.0, 0.0]
+            place[up], place[other] = height, across
+            ops.node(10 * index + level + 1, *place)
+        ops.fix(10 * index + 1, 1, 1, 1, 1, 1, 1)
+        ops.element("elasticBeamColumn", index + 1, 10 * index + 1, 10 * index + 2, 0.16, 3e7, 1.2e7, 4e-3, 2e-3, 2e-3, 1)
+        nodes.append(10 * index + 2)
+    return nodes
+
+
+def test_models_with_y_upward_are_refused() -> None:
+    for node in space(1):
+        ops.mass(node, 10.0, 10.0, 10.0, 0.0, 0.0, 0.0)
+    refuse("all supports are at the lowest y and at several z, so y is the height")
+    nodes = space(1)
+    ops.node(99, 3.0, 4.0, 2.5)
+    ops.fix(99, 0, 1, 0, 1, 0, 1)
+    ops.mass(99, 40.0, 0.0, 40.0, 0.0, 500.0, 0.0)
+    ops.rigidDiaphragm(2, 99, *nodes)
+    refuse("rigid diaphragms lie in the plane of x and z")
+
+
+def test_floors_with_different_masses_along_x_and_y_are_refused() -> None:
+    for along_y, said in ((40.0, ""), (30.0, r"node 99\) has 40000 kg along x and 30000 kg along y")):
+        nodes = space(2)
+        ops.node(99, 3.0, 2.5, 4.0)
+        ops.fix(99, 0, 0, 1, 1, 1, 0)
+        ops.mass(99, 40.0, along_y, 0.0, 0.0, 0.0, 500.0)
+        ops.rigidDiaphragm(3, 99, *nodes)
+        if said:
+            refuse(said)
+        else:
+            assert jostle.Model(quietly(ops, side="left", units="kN, m")).periods(0)[0] > 0.0
+
+
+def test_the_level_of_the_base_is_kept(tmp_path: Path) -> None:
+    """Feet at 2 ft and a floor 4 ft above them; on the axis, none is written."""
+    for level, expected in ((2.0, 0.6096), (0.0, None)):
+        for node in space(2, level):
+            ops.mass(node, 10.0, 10.0, 0.0, 0.0, 0.0, 0.0)
+        building = quietly(ops, side="left", units="kip, ft").to_dict()
+        assert building.get("elevation") == (None if expected is None else pytest.approx(expected))
+        (port,) = building["ports"].values()
+        assert port["height"] == pytest.approx(4 * 0.3048)
+    lifted = tmp_path / "lifted.py"
+    lifted.write_text(
+        "from openseespy.opensees import *\nwipe()\nmodel('basic', '-ndm', 2, '-ndf', 3)\nnode(1, 0.0, 10.0)\nnode(2, 0.0, 14.0)\n"
+        "fix(1, 1, 1, 1)\nmass(2, 10.0, 0.0, 0.0)\ngeomTransf('Linear', 1)\n"
+        "element('elasticBeamColumn', 1, 1, 2, 0.16, 3e7, 2e-3, 1)\n"
+    )
+    to = tmp_path / "a.toml"
+    assert _opensees_file.main([str(lifted), "--to", str(to), "--units", "kN, m"]) == 0
+    assert 'elevation = "10.0 m"' in to.read_text("utf-8")

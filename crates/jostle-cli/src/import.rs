@@ -59,7 +59,7 @@ pub(crate) struct TableArgs {
     /// Width of the gaps between neighbours
     #[arg(long, value_name = "QUANTITY")]
     gap: Option<String>,
-    /// Load case of Story Stiffness
+    /// Load case of Story Stiffness, or modal case
     #[arg(long, value_name = "NAME")]
     case: Option<String>,
     /// Diaphragm of this building, if storeys have several

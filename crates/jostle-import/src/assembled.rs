@@ -316,11 +316,18 @@ fn elements(
         let refuse = |problem: String, remedy: &str| {
             fault(&model.file, member.shown.clone(), problem, remedy)
         };
+        let (rigidity, turn) =
+            rigidity(member, model).map_err(|(problem, remedy)| refuse(problem, remedy))?;
+        if turn != 0.0 && member.is_released() {
+            return Err(refuse(
+                "has released ends, and a section whose axes are not principal ones (I23)".into(),
+                "take the stiffness from results instead: unit loads on every diaphragm",
+            ));
+        }
         let mut beam = Beam {
             ends: piece.joints.map(|joint| joints.at[joint]),
-            angle: member.angle,
-            rigidity: rigidity(member, model)
-                .map_err(|(problem, remedy)| refuse(problem, remedy))?,
+            angle: member.angle + turn,
+            rigidity,
             releases: member.releases,
             stiff_ends: member.stiff_ends,
         };
@@ -389,7 +396,7 @@ fn remarks(
         joints.at.len()
     )];
     if panels > 0 {
-        found.push(format!("{} wall areas as wide columns in {panels} panels between the levels of joints: some percent from shells of fine meshes; compare the periods", model.walls.len()));
+        found.push(format!("{} wall areas as wide columns in {panels} panels between the levels of joints: some percent from shells of fine meshes; compare the periods. Two walls alone that meet at a corner resist torsion by their bending across, which is too soft here: periods of torsion can be longer by half", model.walls.len()));
     }
     let split = pieces - model.members.len();
     if split > 0 {

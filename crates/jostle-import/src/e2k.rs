@@ -4,10 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use jostle_io::InputError;
 
+use crate::e2k_keys::KINDS;
 use crate::facts::{Facts, Story, fault, key};
-use crate::member::{Member, Support, TextModel, Wall};
+use crate::known::Tally;
+use crate::member::{Member, ONE_HEIGHT, Support, TextModel, Wall};
 use crate::text::number;
 use crate::units::{LENGTH, PRESSURE, Units};
+use crate::wall_panel::edges;
 
 /// Sections of a file that are read.
 const READ: &[&str] = &[
@@ -42,39 +45,19 @@ const HARMLESS: &[&str] = &[
 /// Keys of the six numbers of a section, and of the factors on them.
 const NUMBERS: [&str; 6] = ["AREA", "AS2", "AS3", "TORSION", "I22", "I33"];
 const FACTORS: [&str; 6] = ["AMOD", "A2MOD", "A3MOD", "JMOD", "I2MOD", "I3MOD"];
-/// Keys of members that are read, or that do not matter.
-const OF_LINES: [&str; 30] = [
-    "SECTION",
-    "ANG",
-    "RELEASE",
-    "LENGTHOFFI",
-    "LENGTHOFFJ",
-    "RIGIDZONE",
-    "OFFSETXI",
-    "OFFSETYI",
-    "OFFSETZI",
-    "OFFSETXJ",
-    "OFFSETYJ",
-    "OFFSETZJ",
-    "OFFSETSYS",
-    "LOCAL",
-    "GLOBAL",
-    "CARDINALPT",
-    "MINNUMSTA",
-    "MAXSTASPC",
-    "MESH",
-    "AUTOMESH",
-    "MESHATINTERSECTIONS",
-    "MESHATJOINTS",
-    "MESHMAXLENGTH",
-    "PIER",
-    "SPANDREL",
-    "DESIGNPROC",
-    "DESIGNTYPE",
-    "COLOR",
-    "GUID",
-    "TRANSSTIFF",
+const MEMBER_FACTORS: [&str; 6] = [
+    "PROPMODA",
+    "PROPMODA2",
+    "PROPMODA3",
+    "PROPMODT",
+    "PROPMODI22",
+    "PROPMODI33",
 ];
+/// Keys of the factors on the stiffness of a wall, of its property and of its own.
+const WALL_FACTORS: [&str; 4] = ["F22MOD", "F12MOD", "M22MOD", "M12MOD"];
+const OWN_WALL_FACTORS: [&str; 4] = ["PROPMODF22", "PROPMODF12", "PROPMODM22", "PROPMODM12"];
+/// Releases of a member that is pinned: moments at both ends, torsion at one.
+const PINNED: &str = "TI M2I M3I M2J M3J";
 /// What a support may hold.
 const HELD: [&str; 6] = ["UX", "UY", "UZ", "RX", "RY", "RZ"];
 
@@ -131,6 +114,18 @@ impl<'a> Record<'a> {
     fn number(&self, name: &str) -> Option<f64> {
         number(self.value(name)?)
     }
+
+    /// Notes all keys: bare words behind the names of the record.
+    fn note(&self, tally: &mut Tally) {
+        let kind = self.at(0);
+        // Connectivities name the kind of the object as well.
+        let names = 2 + usize::from(["LINE", "AREA"].contains(&kind) || kind.ends_with("ASSIGN"));
+        for (place, word) in self.words.iter().enumerate().skip(names) {
+            if !word.quoted && word.text.starts_with(char::is_alphabetic) {
+                tally.note(KINDS, kind, word.text, self.at(place + 1));
+            }
+        }
+    }
 }
 
 /// Adds what a text model of ETABS says.
@@ -172,6 +167,12 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
     }
     let none = Vec::new();
     let of = |name: &str| sections.get(name).unwrap_or(&none).iter();
+    let mut tally = Tally::default();
+    // Slabs and decks do not bend, whatever their properties.
+    let unchecked = ["CONTROLS", "SLAB PROPERTIES", "DECK PROPERTIES"];
+    for name in READ.iter().filter(|name| !unchecked.contains(name)) {
+        of(name).for_each(|record| record.note(&mut tally));
+    }
     let units = units(file, of("CONTROLS"))?;
     let (length, pressure) = (units.factor(LENGTH), units.factor(PRESSURE));
     let levels = stories(file, of("STORIES"), length, facts)?;
@@ -199,6 +200,10 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             model.semirigid.push(record.at(1).to_owned());
         }
     }
+    let rigid: BTreeSet<&str> = of("DIAPHRAGM NAMES")
+        .filter(|record| record.value("TYPE") == Some("RIGID"))
+        .map(|record| record.at(1))
+        .collect();
     for record in of("MATERIAL PROPERTIES") {
         let materials = model
             .materials
@@ -215,7 +220,13 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             sections.material = record.value("MATERIAL").unwrap_or("").to_owned();
             let size = |name: &str| record.number(name).map(|size| size * length);
             sections.size = ["D", "B"].map(size);
-            sections.plates = ["TF", "TW"].map(size);
+            // The wall of a pipe is T.
+            sections.plates = [size("TF"), size("TW").or(size("T"))];
+            sections.bottom = ["BB", "TFB"].map(size);
+            sections.fill = record.value("FILLMATERIAL").map(str::to_owned);
+        }
+        if let Some(product) = record.number("I23") {
+            sections.product = product * length.powi(4);
         }
         for (index, (stated, name)) in sections.stated.iter_mut().zip(NUMBERS).enumerate() {
             let power = if index < 3 { 2 } else { 4 };
@@ -270,7 +281,6 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         .map(|record| (record.at(1), record))
         .collect();
     let mut members: BTreeMap<(String, usize), Member> = BTreeMap::new();
-    let mut unknown: BTreeMap<&str, usize> = BTreeMap::new();
     for record in of("LINE ASSIGNS") {
         let line = lines
             .get(record.at(1))
@@ -289,17 +299,25 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 let shown = format!("{kind} \"{}\" of storey \"{}\"", record.at(1), record.at(2));
                 Member::new(shown, ends)
             });
-        let bare = record.words.iter().skip(3).filter(|word| !word.quoted);
-        let keys = bare.filter(|word| word.text.starts_with(char::is_alphabetic));
-        for word in keys.filter(|word| !OF_LINES.contains(&word.text)) {
-            *unknown.entry(word.text).or_default() += 1;
-        }
         // Further lines of one member add keys.
         if let Some(section) = record.value("SECTION") {
             section.clone_into(&mut members.section);
         }
         members.angle = record.number("ANG").unwrap_or(members.angle);
-        for word in record.value("RELEASE").unwrap_or("").split_whitespace() {
+        for (factor, name) in members.factors.iter_mut().zip(MEMBER_FACTORS) {
+            *factor = record.number(name).unwrap_or(*factor);
+        }
+        if let Some(material) = record.value("MATERIALOVERWRITE") {
+            members.material = Some(material.to_owned());
+        }
+        if record.value("SPRINGPROP").is_some() {
+            model.on_springs.push(members.shown.clone());
+        }
+        let releases = match record.value("RELEASE").unwrap_or("") {
+            "PINNED" => PINNED,
+            stated => stated,
+        };
+        for word in releases.split_whitespace() {
             let (what, end) = word.split_at(word.len() - 1);
             let place = Member::RELEASES
                 .iter()
@@ -328,6 +346,10 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 .number(name)
                 .map_or(*end, |offset| offset * length * rigid);
         }
+        let by_source = ["LENGTHOFFI", "LENGTHOFFJ"]
+            .iter()
+            .all(|name| record.number(name).is_none());
+        members.moved |= rigid != 0.0 && by_source;
         members.moved |= ["OFFSETXI", "OFFSETYI", "OFFSETXJ", "OFFSETYJ"]
             .iter()
             .any(|name| record.number(name).is_some_and(|number| number != 0.0));
@@ -342,11 +364,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         }
         let thickness = record.number("WALLTHICKNESS").map(|number| number * length);
         wall_properties.thickness = thickness.or(wall_properties.thickness);
-        for (factor, name) in wall_properties
-            .factors
-            .iter_mut()
-            .zip(["F22MOD", "F12MOD", "M22MOD", "M12MOD"])
-        {
+        for (factor, name) in wall_properties.factors.iter_mut().zip(WALL_FACTORS) {
             *factor = record.number(name).unwrap_or(*factor);
         }
     }
@@ -361,31 +379,61 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
     };
     let bending: BTreeSet<&str> = shells.filter(bends).map(|record| record.at(1)).collect();
     let mut floors = 0;
+    let mut ramps: Vec<String> = Vec::new();
     for record in of("AREA ASSIGNS") {
         let area = areas
             .get(record.at(1))
             .ok_or_else(|| lost(record, "an area"))?;
         let level = level_of(record.at(2))
             .ok_or_else(|| lost(record, &format!("the storey \"{}\"", record.at(2))))?;
-        if area.at(2) == "PANEL" {
-            let shown = format!("wall \"{}\" of storey \"{}\"", record.at(1), record.at(2));
-            let count: usize = area.at(3).parse().unwrap_or(0);
-            // Points, and how many storeys below this one each of them lies.
-            let corner = |index: usize| {
-                let below: usize = area.at(4 + count + index).parse().unwrap_or(0);
-                place(area.at(4 + index), level.checked_sub(below)?)
-            };
-            let corners: Option<Vec<[f64; 3]>> =
-                (0..count.min(area.words.len())).map(corner).collect();
-            let corners = corners.ok_or_else(|| lost(area, "points or storeys"))?;
-            let points = facts.points.entry(key(record.at(2))).or_default();
-            points.extend(corners.iter().map(|[x, y, _]| [*x, *y]));
-            model.walls.push(Wall {
-                shown,
-                corners,
-                property: record.value("SECTION").unwrap_or("").to_owned(),
-            });
+        let what = match area.at(2) {
+            "PANEL" => "wall",
+            _ => "area",
+        };
+        let shown = format!("{what} \"{}\" of storey \"{}\"", record.at(1), record.at(2));
+        let count: usize = area.at(3).parse().unwrap_or(0);
+        // Points, and how many storeys below this one each of them lies.
+        let corner = |index: usize| {
+            let below: usize = area.at(4 + count + index).parse().unwrap_or(0);
+            place(area.at(4 + index), level.checked_sub(below)?)
+        };
+        let corners: Option<Vec<[f64; 3]>> = (0..count.min(area.words.len())).map(corner).collect();
+        let corners = corners.ok_or_else(|| lost(area, "points or storeys"))?;
+        if record.value("SPRINGPROP").is_some() {
+            model.on_springs.push(shown.clone());
+        }
+        let points = facts.points.entry(key(record.at(2))).or_default();
+        points.extend(corners.iter().map(|[x, y, _]| [*x, *y]));
+        let opening = record
+            .value("OPENING")
+            .is_some_and(|value| value.eq_ignore_ascii_case("yes"));
+        let mut wall = Wall {
+            shown,
+            corners,
+            property: record.value("SECTION").unwrap_or("").to_owned(),
+            factors: OWN_WALL_FACTORS.map(|name| record.number(name).unwrap_or(1.0)),
+            thickness: None,
+            material: record.value("MATERIALOVERWRITE").map(str::to_owned),
+        };
+        let z = wall.corners.first().map_or(0.0, |corner| corner[2]);
+        let level = |corner: &[f64; 3]| (corner[2] - z).abs() < ONE_HEIGHT;
+        let inclined = !wall.corners.iter().all(level);
+        // Walls may be drawn as areas.
+        if what == "wall" || (inclined && edges(&wall).is_some()) {
+            if opening {
+                return Err(fault(
+                    file,
+                    wall.shown,
+                    "is an opening in a wall, which jostle cannot cut",
+                    "divide the wall at the opening into panels beside, above and below it, or take the stiffness from results: unit loads on every diaphragm",
+                ));
+            }
+            wall.thickness = thickness(file, record, &wall.shown)?.map(|own| own * length);
+            model.walls.push(wall);
             continue;
+        }
+        if inclined {
+            ramps.push(wall.shown.clone());
         }
         if let Some(name) = record
             .value("SECTION")
@@ -394,16 +442,13 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             model.bending_slabs.push(name.to_owned());
         }
         floors += 1;
-        let corners: usize = area.at(3).parse().unwrap_or(0);
-        for corner in 0..corners.min(area.words.len()) {
-            let [x, y, _] =
-                place(area.at(4 + corner), level).ok_or_else(|| lost(area, "points"))?;
-            facts
-                .points
-                .entry(key(record.at(2)))
-                .or_default()
-                .push([x, y]);
+        if let Some(name) = record.value("DIAPH").filter(|name| rigid.contains(name)) {
+            wall.corners.iter().for_each(|at| model.hold(name, *at));
         }
+        model.floor_areas.push(wall.corners);
+    }
+    if let Some(ramp) = ramps.first() {
+        facts.left_out.push(format!("{file}: {} inclined areas, such as {ramp}: ramps and stairs stiffen the frame, and periods are longer without them", ramps.len()));
     }
     for ((_, level), member) in &members {
         for [x, y, _] in member.ends {
@@ -420,24 +465,19 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         if record.value("SPRINGPROP").is_some() {
             model.on_springs.push(shown.clone());
         }
-        if record.value("DIAPH") == Some("DISCONNECTED") {
-            model.disconnected.extend(at);
+        match record.value("DIAPH") {
+            Some("DISCONNECTED") => model.disconnected.extend(at),
+            Some(name) if rigid.contains(name) => {
+                at.into_iter().for_each(|at| model.hold(name, at));
+            }
+            _ => {}
         }
         if let (Some(held), Some(at)) = (record.value("RESTRAINT"), at) {
             let held = HELD.map(|direction| held.split_whitespace().any(|word| word == direction));
             model.supports.push(Support { shown, at, held });
         }
     }
-    if !unknown.is_empty() {
-        let keys: Vec<String> = unknown
-            .iter()
-            .map(|(key, count)| format!("{key} ({count} times)"))
-            .collect();
-        facts.left_out.push(format!(
-            "{file}: keys of members that are not known: {}; check them for misspelt ones",
-            keys.join(", ")
-        ));
-    }
+    facts.left_out.extend(tally.lines(file));
     facts.read.push(format!(
         "{file}: {} storeys, {} columns and beams, {floors} floor areas, {} walls",
         facts.stories.len(),
@@ -535,4 +575,37 @@ fn stories<'a>(
         .collect();
     facts.base = Some(base);
     Ok(levels)
+}
+
+/// Thickness that an area has in place of its property's, in the unit of the file.
+fn thickness(file: &str, record: &Record<'_>, shown: &str) -> Result<Option<f64>, InputError> {
+    let is = |word: &Word<'_>| !word.quoted && word.text == "AREATHICKNESSOVERWRITE";
+    let Some(place) = record.words.iter().position(is) else {
+        return Ok(None);
+    };
+    let values = record.words[place + 1..]
+        .iter()
+        .map_while(|word| number(word.text));
+    one_thickness(file, shown, values)
+}
+
+/// The one thickness of all corners of an area.
+///
+/// # Errors
+/// Corners of different thicknesses.
+pub(crate) fn one_thickness(
+    file: &str,
+    shown: &str,
+    mut values: impl Iterator<Item = f64>,
+) -> Result<Option<f64>, InputError> {
+    let first = values.next();
+    match values.all(|value| Some(value) == first) {
+        true => Ok(first),
+        false => Err(fault(
+            file,
+            shown,
+            "has a thickness that changes over its area",
+            "give it one thickness in the source, or take the stiffness from results: unit loads on every diaphragm",
+        )),
+    }
 }

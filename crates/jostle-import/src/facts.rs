@@ -1,6 +1,6 @@
 //! What the files of a building say, whatever their format, in SI.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use jostle_io::{Fault, InputError};
 
@@ -44,6 +44,7 @@ pub(crate) struct ModePeriod {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Displacement {
     pub(crate) story: String,
+    pub(crate) diaphragm: String,
     pub(crate) case: String,
     /// Mode, or step of a case.
     pub(crate) step: Option<usize>,
@@ -101,6 +102,8 @@ pub(crate) struct Facts {
     pub(crate) text: Option<TextModel>,
     /// Whether the model is one of SAP2000, which has other tables.
     pub(crate) sap2000: bool,
+    /// Why the text model has no masses of its own.
+    pub(crate) without_masses: Option<&'static str>,
     /// Units of the text model or the listing.
     pub(crate) units: Option<crate::units::Units>,
     /// Tables found, for messages.
@@ -139,6 +142,8 @@ const MOST_STOREY: f64 = 100.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Floor {
     pub(crate) name: String,
+    /// The diaphragm that has its mass.
+    pub(crate) diaphragm: String,
     /// Above the base \[m\].
     pub(crate) height: f64,
     pub(crate) mass: [f64; 2],
@@ -199,6 +204,29 @@ impl Facts {
             .collect();
     }
 
+    /// Checks that storeys rise as their joints do: a table without elevations may be in another order.
+    ///
+    /// # Errors
+    /// A storey that lies below another one whose joints are lower.
+    pub(crate) fn check_order(&self) -> Result<(), InputError> {
+        let joint = |story: &Story| Some(self.joint_heights.get(&key(&story.name))?.1);
+        for pair in self.stories.windows(2) {
+            if let (Some(lower), Some(upper)) = (joint(&pair[0]), joint(&pair[1]))
+                && lower > upper
+            {
+                return Err(self.fault(
+                    format!("storey \"{}\"", pair[1].name),
+                    format!(
+                        "stands above \"{}\" in the table of storeys, but its joints are lower",
+                        pair[0].name
+                    ),
+                    "list storeys from the top down, as ETABS does, or export the column Elevation",
+                ));
+            }
+        }
+        Ok(())
+    }
+
     /// Floors with mass, from the ground up. Storeys without mass are joined to those above, and listed.
     pub(crate) fn floors(&mut self) -> Result<Vec<Floor>, InputError> {
         if self.stories.is_empty() {
@@ -216,6 +244,12 @@ impl Facts {
             false => &self.solver_masses,
             true => &self.masses,
         };
+        if masses.is_empty() && self.sap2000 {
+            let why = self.without_masses.unwrap_or(
+                "no joint under a diaphragm has a mass (table JOINT ADDED MASS ASSIGNMENTS)",
+            );
+            return Err(self.fault("", format!("has no floor masses: {why}"), "name the .OUT and .LOG files of the analysis as well, or make a mass source of added masses alone"));
+        }
         if masses.is_empty() {
             return Err(self.fault("", "has no floor masses", "export the table Mass Summary by Diaphragm as well, or name the .OUT and .LOG files of the analysis; masses are not taken from loads, which give 12 to 17 % too much"));
         }
@@ -267,6 +301,7 @@ impl Facts {
             match mass {
                 Some(mass) => floors.push(Floor {
                     name: story.name.clone(),
+                    diaphragm: mass.diaphragm.clone(),
                     height: story.top - base,
                     mass: mass.mass,
                     inertia: mass.inertia.filter(|inertia| *inertia > 0.0),
@@ -300,6 +335,40 @@ impl Facts {
             ));
         }
         Ok(floors)
+    }
+
+    /// Keeps the displacements of the diaphragms that have the masses, where storeys have displacements of several.
+    ///
+    /// # Errors
+    /// A storey with displacements of several diaphragms, none of which has its mass.
+    pub(crate) fn choose_displacements(&mut self, floors: &[Floor]) -> Result<(), InputError> {
+        for floor in floors {
+            let of_floor = |row: &&Displacement| key(&row.story) == key(&floor.name);
+            let names: BTreeSet<String> = self
+                .displacements
+                .iter()
+                .filter(of_floor)
+                .map(|row| key(&row.diaphragm))
+                .collect();
+            if names.len() < 2 {
+                continue;
+            }
+            let chosen = key(&floor.diaphragm);
+            if !names.contains(&chosen) {
+                let names: Vec<String> = names.into_iter().collect();
+                return Err(self.fault(
+                    format!("storey \"{}\"", floor.name),
+                    format!(
+                        "has displacements of several diaphragms, {}, and masses of none of them",
+                        names.join(" and ")
+                    ),
+                    "name one with --diaphragm, and export Mass Summary by Diaphragm",
+                ));
+            }
+            self.displacements
+                .retain(|row| key(&row.story) != key(&floor.name) || key(&row.diaphragm) == chosen);
+        }
+        Ok(())
     }
 
     /// Convex outline of the joints of a storey, else of all joints.

@@ -155,6 +155,7 @@ pub(crate) fn assembled(
 /// What is missing for each of the ways.
 pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
     let floors = facts.floors()?;
+    facts.choose_displacements(&floors)?;
     let cases = unit_cases(facts, options)?;
     let in_both = options
         .direction
@@ -176,7 +177,7 @@ pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built,
             ));
         }
         let mut remarks = Vec::new();
-        return match by_modes_in_space(facts, &floors, &mut remarks)? {
+        return match by_modes_in_space(facts, &floors, options, &mut remarks)? {
             Some(matrix) => in_space(facts, &floors, &matrix, remarks),
             None => Err(facts.fault("", "has no shapes of modes", "select the modal case for output and export Diaphragm Center Of Mass Displacements and Modal Periods And Frequencies")),
         };
@@ -229,7 +230,7 @@ pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built,
         return Ok(in_plane(facts, &floors, &matrix, axis, remarks));
     }
     if wants(Way::Modes)
-        && let Some(built) = by_modes(facts, &floors, &cases, axis)?
+        && let Some(built) = by_modes(facts, &floors, &cases, axis, options)?
     {
         return Ok(built);
     }
@@ -453,7 +454,7 @@ fn in_space(
     for (index, floor) in floors.iter().enumerate() {
         let [x, y] = floor.mass;
         if (x - y).abs() > 1e-6 * x {
-            return Err(facts.fault(format!("storey \"{}\"", floor.name), "has different masses along X and Y", "a floor in space has one mass: set the mass source to both directions in ETABS, or add --direction x"));
+            return Err(facts.fault(format!("storey \"{}\"", floor.name), "has different masses along X and Y", "a floor in space has one mass: give it the same along both in the source, or add --direction x"));
         }
         let (Some(inertia), Some([cx, cy])) = (floor.inertia, floor.centre) else {
             continue;
@@ -543,10 +544,23 @@ struct Shape {
     energies: [f64; 3],
 }
 
-/// Modes whose shape is known at every floor, longest period first.
-fn shapes(facts: &Facts, floors: &[Floor]) -> Vec<Shape> {
+/// Modes of one case whose shape is known at every floor, longest period first.
+///
+/// # Errors
+/// Several modal cases, none of which is named.
+fn shapes(
+    facts: &Facts,
+    floors: &[Floor],
+    options: &ImportOptions,
+) -> Result<Vec<Shape>, InputError> {
     let mut found: Vec<Shape> = Vec::new();
-    for period in facts.periods.iter().filter(|period| period.period > 0.0) {
+    let mut cases: Vec<&str> = Vec::new();
+    let of_case = |case: &str| {
+        let named = options.case.as_deref();
+        case.is_empty() || named.is_none_or(|named| key(named) == key(case))
+    };
+    let periods = facts.periods.iter().filter(|period| period.period > 0.0);
+    for period in periods.filter(|period| of_case(&period.case)) {
         let of_floor = |floor: &Floor| {
             let is = |row: &&crate::facts::Displacement| {
                 row.step == Some(period.mode)
@@ -558,6 +572,9 @@ fn shapes(facts: &Facts, floors: &[Floor]) -> Vec<Shape> {
         let Some(shape) = floors.iter().map(of_floor).collect::<Option<Vec<_>>>() else {
             continue;
         };
+        if !cases.contains(&period.case.as_str()) {
+            cases.push(&period.case);
+        }
         let energies = [0, 1, 2].map(|component| {
             let energy = |(by, floor): (&[f64; 3], &Floor)| {
                 by[component].powi(2) * mass_of(floor)[component]
@@ -571,8 +588,15 @@ fn shapes(facts: &Facts, floors: &[Floor]) -> Vec<Shape> {
             energies,
         });
     }
+    if cases.len() > 1 {
+        return Err(facts.fault(
+            "",
+            format!("has modes of several cases, {}", cases.join(", ")),
+            format!("name one, such as --case \"{}\"", cases[0]),
+        ));
+    }
     found.sort_by(|a, b| b.period.total_cmp(&a.period));
-    found
+    Ok(found)
 }
 
 /// Masses along X and Y and moment of inertia of a floor \[kg, kg·m²\].
@@ -586,9 +610,10 @@ fn mass_of(floor: &Floor) -> [f64; 3] {
 fn by_modes_in_space(
     facts: &Facts,
     floors: &[Floor],
+    options: &ImportOptions,
     remarks: &mut Vec<String>,
 ) -> Result<Option<Vec<Vec<f64>>>, InputError> {
-    let mut modes = shapes(facts, floors);
+    let mut modes = shapes(facts, floors, options)?;
     modes.retain(|mode| mode.energies.iter().sum::<f64>() > 0.0);
     modes.truncate(3 * floors.len());
     let table = "Diaphragm Center Of Mass Displacements of modes";
@@ -689,11 +714,12 @@ fn by_modes(
     floors: &[Floor],
     cases: &Cases,
     axis: usize,
+    options: &ImportOptions,
 ) -> Result<Option<Built>, InputError> {
     let mut remarks = vec![PLANE.to_owned()];
     let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
     let mut least_share = 1.0_f64;
-    for shape in shapes(facts, floors) {
+    for shape in shapes(facts, floors, options)? {
         let all: f64 = shape.energies.iter().sum();
         let share = shape.energies[axis] / all;
         if !(all > 0.0 && share > 0.5) {

@@ -9,7 +9,7 @@ use crate::facts::{Facts, fault};
 use crate::given::{self, Arrays, Built, quoted};
 use crate::options::{Direction, ImportOptions, Way};
 use crate::units::Units;
-use crate::{e2k, listing, s2k, space_frame, tables, text, workbook};
+use crate::{e2k, listing, s2k, space_frame, tables, text, towers, workbook};
 
 /// The program that wrote the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,7 +203,9 @@ pub fn import(
         for (kind, file) in group {
             gather(program, *kind, file, units, options, &mut facts)?;
         }
+        towers::choose(&mut facts, options.diaphragm.as_deref())?;
         facts.complete_stories();
+        facts.check_order()?;
         refine_periods(&mut facts);
         let built = build(&mut facts, options)?;
         add(

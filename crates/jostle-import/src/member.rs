@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+/// Heights nearer than this are one level \[m\].
+pub(crate) const ONE_HEIGHT: f64 = 0.01;
+
 /// A column, beam or brace. Axis 1 runs from its first to its other end; axis 2 stands upright, or along X in a vertical member, turned
 /// by `angle`.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +20,12 @@ pub(crate) struct Member {
     pub(crate) releases: [[bool; 6]; 2],
     /// Stiff lengths at both ends, which do not bend \[m\].
     pub(crate) stiff_ends: [f64; 2],
-    /// Whether it is moved aside of its joints.
+    /// Whether it is moved aside of its joints, or has end lengths that the source finds from the sizes of other members.
     pub(crate) moved: bool,
+    /// Its own factors on the six numbers of its section.
+    pub(crate) factors: [f64; 6],
+    /// Its own material in place of that of its section.
+    pub(crate) material: Option<String>,
 }
 
 impl Member {
@@ -34,7 +41,19 @@ impl Member {
             releases: [[false; 6]; 2],
             stiff_ends: [0.0; 2],
             moved: false,
+            factors: [1.0; 6],
+            material: None,
         }
+    }
+
+    /// Factors on the six numbers of its section, the member's times the section's.
+    pub(crate) fn factors_with(&self, section: &SectionFacts) -> [f64; 6] {
+        std::array::from_fn(|index| self.factors[index] * section.factors[index])
+    }
+
+    /// Name of its material.
+    pub(crate) fn material<'a>(&'a self, section: &'a SectionFacts) -> &'a str {
+        self.material.as_deref().unwrap_or(&section.material)
     }
 
     pub(crate) fn is_released(&self) -> bool {
@@ -51,8 +70,14 @@ pub(crate) struct SectionFacts {
     pub(crate) size: [Option<f64>; 2],
     /// Thickness of flanges and of webs \[m\].
     pub(crate) plates: [Option<f64>; 2],
+    /// Width and thickness of the bottom flange, where it differs \[m\].
+    pub(crate) bottom: [Option<f64>; 2],
+    /// Material inside of a filled section.
+    pub(crate) fill: Option<String>,
     /// The six numbers that the file states \[m², m⁴\].
     pub(crate) stated: [Option<f64>; 6],
+    /// Product of inertia I23, of sections whose axes 2 and 3 are not principal ones \[m⁴\].
+    pub(crate) product: f64,
     /// Factors on them.
     pub(crate) factors: [f64; 6],
 }
@@ -65,7 +90,10 @@ impl Default for SectionFacts {
             material: String::new(),
             size: [None; 2],
             plates: [None; 2],
+            bottom: [None; 2],
+            fill: None,
             stated: [None; 6],
+            product: 0.0,
             factors: [1.0; 6],
         }
     }
@@ -89,6 +117,12 @@ pub(crate) struct Wall {
     /// In the order of the file \[m\].
     pub(crate) corners: Vec<[f64; 3]>,
     pub(crate) property: String,
+    /// Its own factors, in the order of its property's.
+    pub(crate) factors: [f64; 4],
+    /// Its own thickness in place of its property's \[m\].
+    pub(crate) thickness: Option<f64>,
+    /// Its own material in place of its property's.
+    pub(crate) material: Option<String>,
 }
 
 /// Thickness and material of walls.
@@ -130,4 +164,32 @@ pub(crate) struct TextModel {
     pub(crate) on_springs: Vec<String>,
     /// Joints that do not move with their floor.
     pub(crate) disconnected: Vec<[f64; 3]>,
+    /// Rigid floors by name, and the joints that each holds at one height.
+    pub(crate) diaphragms: Vec<Diaphragm>,
+    /// Corners of floor areas, which connect what stands on them.
+    pub(crate) floor_areas: Vec<Vec<[f64; 3]>>,
+}
+
+/// A rigid floor at one height.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Diaphragm {
+    pub(crate) name: String,
+    /// Joints and corners of areas that it holds \[m\].
+    pub(crate) joints: Vec<[f64; 3]>,
+}
+
+impl TextModel {
+    /// Adds a joint to a diaphragm, one for each name and height.
+    pub(crate) fn hold(&mut self, name: &str, at: [f64; 3]) {
+        let is = |floor: &&mut Diaphragm| {
+            floor.name == name && (floor.joints[0][2] - at[2]).abs() < ONE_HEIGHT
+        };
+        match self.diaphragms.iter_mut().find(is) {
+            Some(floor) => floor.joints.push(at),
+            None => self.diaphragms.push(Diaphragm {
+                name: name.to_owned(),
+                joints: vec![at],
+            }),
+        }
+    }
 }

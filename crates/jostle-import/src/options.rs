@@ -33,7 +33,7 @@ pub struct ImportOptions {
     pub direction: Option<Direction>,
     /// Way; `None` for the best that the files allow.
     pub way: Option<Way>,
-    /// Load case of storey stiffnesses.
+    /// Load case of storey stiffnesses, or modal case of modes.
     pub case: Option<String>,
     /// Diaphragm that is the building, where storeys have several.
     pub diaphragm: Option<String>,

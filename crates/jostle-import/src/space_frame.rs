@@ -61,6 +61,35 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
         return refuse("", "has no columns or beams".into());
     }
     let floors = facts.floors()?;
+    let base = facts.base_height();
+    let on_floor = |at: &[f64; 3]| {
+        let is = |floor: &crate::facts::Floor| (floor.height + base - at[2]).abs() < ONE_LINE;
+        floors.iter().any(is)
+    };
+    let of_member = |at: &[f64; 3]| {
+        let near = |end: &[f64; 3]| (0..3).all(|axis| (end[axis] - at[axis]).abs() < ONE_LINE);
+        model
+            .members
+            .iter()
+            .any(|member| member.ends.iter().any(near))
+    };
+    let free = model.disconnected.iter().filter(|at| on_floor(at));
+    if let Some(at) = free.into_iter().find(|at| of_member(at)) {
+        let [x, y, z] = at.map(|coordinate| format!("{coordinate:.3}"));
+        return refuse(
+            &format!("the joint at {x}, {y}, {z} m"),
+            "does not move with the rigid floor; every joint of a space frame does".into(),
+        );
+    }
+    let uneven = |floor: &&crate::facts::Floor| {
+        (floor.mass[0] - floor.mass[1]).abs() > 1e-6 * floor.mass[0].max(floor.mass[1])
+    };
+    if let Some(floor) = floors.iter().find(uneven) {
+        return refuse(
+            &format!("storey \"{}\"", floor.name),
+            "has different masses along X and Y; a floor of a space frame has one".into(),
+        );
+    }
     if floors.len() != facts.stories.len() {
         let missing = facts
             .stories
@@ -351,27 +380,25 @@ impl Sections {
         };
         let none = SectionFacts::default();
         let section = model.sections.get(&member.section).unwrap_or(&none);
-        let material = model
-            .materials
-            .get(&section.material)
-            .filter(|material| material[0] > 0.0);
-        let Some([modulus, poisson]) = material.copied() else {
+        let name = member.material(section);
+        let material = model.materials.get(name);
+        let Some([modulus, poisson]) = material.copied().filter(|material| material[0] > 0.0)
+        else {
             return refuse(format!(
-                "has the material \"{}\", which has no modulus of elasticity",
-                section.material
+                "has the material \"{name}\", which has no modulus of elasticity"
             ));
         };
-        let [area, shear_2, shear_3, torsion, weak, strong] = section.factors;
+        let [area, shear_2, shear_3, torsion, weak, strong] = member.factors_with(section);
         let of_kind = usize::from(kind > 0);
         if kind == 0 && strong != weak {
             return refuse(format!(
-                "has different factors on I33 and I22 in section \"{}\"; a space frame has one",
+                "has different factors on I33 and I22 (section \"{}\"); a space frame has one",
                 member.section
             ));
         }
         if *self.factors[of_kind].get_or_insert(strong) != strong {
             return refuse(format!(
-                "has a factor of {strong} on I33 in section \"{}\", others have another; a space frame has one for all columns and one for all beams",
+                "has a factor of {strong} on I33 (section \"{}\"), others have another; a space frame has one for all columns and one for all beams",
                 member.section
             ));
         }
@@ -440,14 +467,14 @@ impl Sections {
         block.push_str("shear = \"flexible\"               # as the source has it\n");
         if self.other_torsion {
             remarks
-                .push("factors on torsion differ; that of the first member holds for all".into());
+                .push("factors on torsion differ; that of the first member holds for all, so that periods in torsion differ by some percent: --by members takes each".into());
         }
         if self.other_poisson {
-            remarks.push("Poisson's ratios differ; that of the first member holds for all".into());
+            remarks.push("Poisson's ratios differ; that of the first member holds for all, so that stiffness in shear and torsion differs: --by members takes each".into());
         }
         if self.other_areas {
             remarks
-                .push("factors on areas are not carried over: members have the whole area".into());
+                .push("factors on areas are not carried over: members have the whole area, and are stiffer than the source's: --by members takes them".into());
         }
     }
 }

@@ -372,20 +372,43 @@ pub(crate) fn gather(
     Ok(true)
 }
 
-/// Storeys of a table from the top down.
+/// Storeys of a table from the top down, or in the order of its elevations.
 fn stories(reading: &Reading<'_>, facts: &mut Facts) -> Result<(), InputError> {
     let table = reading.table;
     let tower = table.column(&["tower"]);
-    let numbers = [(reading.needed(&["height"])?, LENGTH)];
-    let mut found: Vec<(String, f64)> = Vec::new();
+    let mut numbers = vec![(reading.needed(&["height"])?, LENGTH)];
+    let elevation = table.column(&["elevation", "elev"]);
+    numbers.extend(elevation.map(|column| (column, LENGTH)));
+    let mut rows: Vec<(String, f64, Option<f64>)> = Vec::new();
     let mut towers: Vec<String> = Vec::new();
     let name = table.column(&["name", "story", "storyname"]);
     reading.each(&[name, tower], &numbers, |texts, values| {
-        found.push((texts[0].to_owned(), values[0]));
+        rows.push((texts[0].to_owned(), values[0], values.get(1).copied()));
         if !towers.iter().any(|tower| tower == texts[1]) {
             towers.push(texts[1].to_owned());
         }
     })?;
+    rows.sort_by(|a, b| match (a.2, b.2) {
+        (Some(a), Some(b)) => b.total_cmp(&a),
+        _ => std::cmp::Ordering::Equal,
+    });
+    for pair in rows.windows(2) {
+        if let (Some(upper), Some(lower)) = (pair[0].2, pair[1].2)
+            && (upper - lower - pair[0].1).abs() > 0.01
+        {
+            return Err(fault(
+                reading.file,
+                format!("table {}, storey \"{}\"", table.name, pair[0].0),
+                format!(
+                    "has a height of {:.3} m, but stands {:.3} m above the storey below by its elevation",
+                    pair[0].1,
+                    upper - lower
+                ),
+                "export the table again",
+            ));
+        }
+    }
+    let mut found: Vec<(String, f64)> = rows.into_iter().map(|row| (row.0, row.1)).collect();
     if towers.len() > 1 {
         return Err(fault(
             reading.file,
@@ -457,6 +480,7 @@ fn displacements(
             .map(|step| step as usize);
         facts.displacements.push(Displacement {
             story: story.to_owned(),
+            diaphragm: diaphragm.to_owned(),
             case: case.to_owned(),
             step,
             by,

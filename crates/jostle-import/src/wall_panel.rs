@@ -138,25 +138,25 @@ impl Panel {
             ))
         };
         let facts = model.wall_properties.get(&wall.property);
-        let Some((facts, thickness)) =
-            facts.and_then(|fact| Some((fact, fact.thickness.filter(|t| *t > 0.0)?)))
-        else {
+        let Some((facts, thickness)) = facts.and_then(|fact| {
+            let thickness = wall.thickness.or(fact.thickness);
+            Some((fact, thickness.filter(|t| *t > 0.0)?))
+        }) else {
             return lacks(format!(
                 "has the property \"{}\", of which the file has no thickness",
                 wall.property
             ));
         };
-        let material = model
-            .materials
-            .get(&facts.material)
-            .filter(|material| material[0] > 0.0);
-        let Some([modulus, poisson]) = material.copied() else {
+        let name = wall.material.as_ref().unwrap_or(&facts.material);
+        let material = model.materials.get(name);
+        let Some([modulus, poisson]) = material.copied().filter(|material| material[0] > 0.0)
+        else {
             return lacks(format!(
-                "has the material \"{}\", which has no modulus of elasticity",
-                facts.material
+                "has the material \"{name}\", which has no modulus of elasticity"
             ));
         };
-        let [along_height, in_shear, across, twist] = facts.factors;
+        let [along_height, in_shear, across, twist] =
+            std::array::from_fn(|index| facts.factors[index] * wall.factors[index]);
         let [left, right] = self.foot.map(|joint| joints.at[joint]);
         let height = joints.at[self.head[0]][2] - left[2];
         let span = [right[0] - left[0], right[1] - left[1]];

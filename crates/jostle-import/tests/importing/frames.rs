@@ -278,11 +278,13 @@ pub(crate) fn s2k() -> String {
     }
     text += " \nTABLE:  \"CONSTRAINT DEFINITIONS - DIAPHRAGM\"\n   Name=D1   CoordSys=GLOBAL   Axis=Z   MultiLevel=No\n   Name=D2   CoordSys=GLOBAL   Axis=Z   MultiLevel=No\n \nTABLE:  \"JOINT CONSTRAINT ASSIGNMENTS\"\n";
     for level in 1..3 {
-        let _ = writeln!(
-            text,
-            "   Joint={}   Constraint=D{level}",
-            joint([0, 0], level)
-        );
+        let columns = (0..9).map(|column| joint([column / 3, column % 3], level));
+        for joint in columns.chain([899 + level]) {
+            let _ = writeln!(
+                text,
+                "   Joint={joint}   Constraint=D{level}   Type=Diaphragm"
+            );
+        }
     }
     text += " \nTABLE:  \"MASS SOURCE\"\n   MassSource=MSSSRC1   Elements=No   Masses=Yes   Loads=No   IsDefault=Yes\n \nTABLE:  \"JOINT ADDED MASS ASSIGNMENTS\"\n";
     // Kgf·s²/cm.

@@ -312,6 +312,10 @@ fn unit_loads_are_the_building_in_space() {
 
 /// The tables of a building in space with so many of its modes in place of unit loads.
 fn modes_in_space(input: &Input, count: usize) -> Vec<u8> {
+    book(&sheets_of_modes(input, count), Layout::Titled, false)
+}
+
+fn sheets_of_modes(input: &Input, count: usize) -> Vec<Sheet> {
     let mut sheets = tables_of(input, 12);
     let system = System::assemble(&input.model).expect("sound");
     let building = &system.buildings[0];
@@ -349,7 +353,7 @@ fn modes_in_space(input: &Input, count: usize) -> Vec<u8> {
     ));
     let columns = [("Case", ""), ("Mode", ""), ("Period", "sec")];
     sheets.push(Sheet::new("Modal Periods And Frequencies", &columns, table));
-    book(&sheets, Layout::Titled, false)
+    sheets
 }
 
 /// All modes of an eccentric frame are the frame; some of them keep their periods, and give way under a force about as it does.
@@ -411,4 +415,107 @@ fn two_workbooks_are_a_pair() {
     assert!(found.toml.contains("width = \"50 mm\""), "{}", found.toml);
     let error = crate::book::tried(Program::Etabs, &files, &along_x()).expect_err("no gap");
     assert!(error.contains("--gap"), "{error}");
+}
+
+/// Rows in another order, of another diaphragm and of another case.
+#[test]
+fn rows_of_tables_are_those_that_are_meant() {
+    let input = sound(&format!("{MOTION}{FRAME}"));
+    let expected = periods(&input, 9);
+    let tried = |sheets: &[Sheet], options: &ImportOptions| {
+        let bytes = book(sheets, Layout::Titled, false);
+        crate::book::tried(Program::Etabs, &[("A.xlsx", &bytes)], options)
+    };
+    let is_the_frame = |found: Result<jostle_import::Imported, String>| {
+        let found = found.unwrap_or_else(|error| panic!("{error}"));
+        let off = difference(&periods(&model(&found), 9), &expected);
+        assert!(off < 1e-6, "{off:.1e}");
+    };
+    let plain = ImportOptions::default();
+    // Storeys from the ground up: by elevations, or refused by the heights of their joints.
+    let mut sheets = tables_of(&input, 12);
+    let is = |title: &'static str| {
+        move |sheet: &&mut Sheet| sheet.title.to_lowercase().starts_with(title)
+    };
+    let mut stories = sheets
+        .iter_mut()
+        .find(is("story definitions"))
+        .expect("storeys");
+    stories.rows.reverse();
+    let error = tried(&sheets, &plain).expect_err("upside down");
+    assert!(error.contains("its joints are lower"), "{error}");
+    stories = sheets
+        .iter_mut()
+        .find(is("story definitions"))
+        .expect("storeys");
+    stories.columns.push(("Elevation", "mm"));
+    let mut z = 0.0;
+    for row in &mut stories.rows {
+        z += row[2].parse::<f64>().expect("a height");
+        row.push(z.to_string());
+    }
+    is_the_frame(tried(&sheets, &plain));
+    let stories = sheets
+        .iter_mut()
+        .find(is("story definitions"))
+        .expect("storeys");
+    stories.rows[1][2] = "100".into();
+    let error = tried(&sheets, &plain).expect_err("heights that do not fit");
+    assert!(error.contains("by its elevation"), "{error}");
+    // Displacements of another diaphragm first, twice as large.
+    let mut sheets = tables_of(&input, 12);
+    let moved = sheets
+        .iter_mut()
+        .find(is("diaphragm center"))
+        .expect("displacements");
+    let mut others = moved.rows.clone();
+    for row in &mut others {
+        row[1] = "D2".into();
+        for cell in &mut row[6..9] {
+            *cell = (2.0 * cell.parse::<f64>().expect("a number")).to_string();
+        }
+    }
+    others.append(&mut moved.rows);
+    moved.rows = others;
+    is_the_frame(tried(&sheets, &plain));
+    let mass = sheets.iter_mut().find(is("mass summary")).expect("masses");
+    for row in &mut mass.rows {
+        row[1] = "D3".into();
+    }
+    let error = tried(&sheets, &plain).expect_err("masses of a third");
+    assert!(
+        error.contains("d1 and d2") && error.contains("--diaphragm"),
+        "{error}"
+    );
+    // Modes of two cases, the other softer.
+    let mut sheets = sheets_of_modes(&input, 9);
+    for title in ["diaphragm center", "modal periods"] {
+        let sheet = sheets.iter_mut().find(is(title)).expect("modes");
+        let mut others = sheet.rows.clone();
+        for row in &mut others {
+            for cell in row.iter_mut().filter(|cell| *cell == "Modal") {
+                *cell = "Soft".into();
+            }
+            if title == "modal periods" {
+                row[2] = (1.3 * row[2].parse::<f64>().expect("a period")).to_string();
+            }
+        }
+        sheet.rows.append(&mut others);
+    }
+    let way = ImportOptions {
+        way: Some(Way::Modes),
+        ..plain
+    };
+    let error = tried(&sheets, &way).expect_err("two cases");
+    assert!(
+        error.contains("several cases, Modal, Soft") && error.contains("--case"),
+        "{error}"
+    );
+    is_the_frame(tried(
+        &sheets,
+        &ImportOptions {
+            case: Some("modal".into()),
+            ..way
+        },
+    ));
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use jostle_import::{ImportOptions, Imported, Program};
 
-use crate::book::imported;
+use crate::book::{imported, tried};
 use crate::irregular::{flexibility_in_space, listing, numbers};
 
 fn building(text: &str, floors: &[[f64; 3]]) -> Imported {
@@ -27,16 +27,52 @@ fn differences(found: &[Vec<f64>], expected: &[Vec<f64>]) -> [f64; 2] {
     worst
 }
 
-/// A wall of one panel a storey: H³/3EI + H/GA along it.
+/// A wall of one panel a storey: H³/3EI + H/GA along it. Its factors and thickness are those of its property, or of its areas.
 #[test]
 fn a_wall_is_a_cantilever() {
-    let (storeys, height, length, thickness) = (6, 3.0_f64, 5.0_f64, 0.25_f64);
+    let property =
+        "WALLTHICKNESS 0.25\n  SHELLPROP \"W\" F22MOD 0.5 F12MOD 0.4 M22MOD 1E-4 M12MOD 1E-4";
+    cantilever(property, "PANEL", "");
+    let half = "WALLTHICKNESS 0.1\n  SHELLPROP \"W\" F22MOD 2 F12MOD 0.4";
+    let own = "AREATHICKNESSOVERWRITE 0.25 0.25 0.25 0.25 PROPMODF22 0.25 PROPMODM22 1E-4 PROPMODM12 1E-4";
+    cantilever(half, "PANEL", own);
+    cantilever(half, "AREA", own);
+    let opening = building_of_walls(property, "PANEL", "OPENING \"Yes\"");
+    let error = tried(
+        Program::Etabs,
+        &[("A.e2k", opening.as_bytes())],
+        &ImportOptions::default(),
+    );
+    let error = error.map(|found| found.toml).expect_err("an opening");
+    assert!(
+        error.contains("wall \"W1\" of storey \"S1\"") && error.contains("is an opening in a wall"),
+        "{error}"
+    );
+    let uneven = building_of_walls(property, "PANEL", "AREATHICKNESSOVERWRITE 0.25 0.3");
+    let error = tried(
+        Program::Etabs,
+        &[("A.e2k", uneven.as_bytes())],
+        &ImportOptions::default(),
+    );
+    let error = error
+        .map(|found| found.toml)
+        .expect_err("a thickness that changes");
+    assert!(error.contains("thickness that changes"), "{error}");
+}
+
+const STOREYS: usize = 6;
+const HEIGHT: f64 = 3.0;
+
+fn building_of_walls(property: &str, drawn: &str, own: &str) -> String {
+    let (storeys, height) = (STOREYS, HEIGHT);
     let mut text =
         String::from("$ CONTROLS\n  UNITS \"N\" \"M\" \"C\"\n$ STORIES - IN SEQUENCE FROM TOP\n");
     for story in (1..=storeys).rev() {
         let _ = writeln!(text, "  STORY \"S{story}\" HEIGHT {height}");
     }
-    text += "  STORY \"Base\" ELEV 0\n$ DIAPHRAGM NAMES\n  DIAPHRAGM \"D1\" TYPE RIGID\n$ MATERIAL PROPERTIES\n  MATERIAL \"C\" TYPE \"Concrete\"\n  MATERIAL \"C\" E 3E10 U 0.2\n$ WALL PROPERTIES\n  SHELLPROP \"W\" PROPTYPE \"Wall\" MATERIAL \"C\" MODELINGTYPE \"ShellThin\" WALLTHICKNESS 0.25\n  SHELLPROP \"W\" F22MOD 0.5 F12MOD 0.4 M22MOD 1E-4 M12MOD 1E-4\n$ POINT COORDINATES\n  POINT \"1\" 0 0\n  POINT \"2\" 3 4\n  POINT \"3\" 8 0\n  POINT \"4\" 8 5\n$ AREA CONNECTIVITIES\n  AREA \"W1\" PANEL 4 \"1\" \"2\" \"2\" \"1\" 1 1 0 0\n  AREA \"W2\" PANEL 4 \"3\" \"4\" \"4\" \"3\" 1 1 0 0\n$ POINT ASSIGNS\n";
+    text += &format!(
+        "  STORY \"Base\" ELEV 0\n$ DIAPHRAGM NAMES\n  DIAPHRAGM \"D1\" TYPE RIGID\n$ MATERIAL PROPERTIES\n  MATERIAL \"C\" TYPE \"Concrete\"\n  MATERIAL \"C\" E 3E10 U 0.2\n$ WALL PROPERTIES\n  SHELLPROP \"W\" PROPTYPE \"Wall\" MATERIAL \"C\" MODELINGTYPE \"ShellThin\" {property}\n$ POINT COORDINATES\n  POINT \"1\" 0 0\n  POINT \"2\" 3 4\n  POINT \"3\" 8 0\n  POINT \"4\" 8 5\n$ AREA CONNECTIVITIES\n  AREA \"W1\" {drawn} 4 \"1\" \"2\" \"2\" \"1\" 1 1 0 0\n  AREA \"W2\" {drawn} 4 \"3\" \"4\" \"4\" \"3\" 1 1 0 0\n$ POINT ASSIGNS\n"
+    );
     for point in 1..=4 {
         let _ = writeln!(
             text,
@@ -46,9 +82,19 @@ fn a_wall_is_a_cantilever() {
     text += "$ AREA ASSIGNS\n";
     for story in 1..=storeys {
         for wall in ["W1", "W2"] {
-            let _ = writeln!(text, "  AREAASSIGN \"{wall}\" \"S{story}\" SECTION \"W\"");
+            let _ = writeln!(
+                text,
+                "  AREAASSIGN \"{wall}\" \"S{story}\" SECTION \"W\" {own}"
+            );
         }
     }
+    text
+}
+
+#[track_caller]
+fn cantilever(property: &str, drawn: &str, own: &str) {
+    let (storeys, height, length, thickness) = (STOREYS, HEIGHT, 5.0_f64, 0.25_f64);
+    let text = building_of_walls(property, drawn, own);
     let centre = |story: usize| [height * story as f64, 4.0, 2.5];
     let floors: Vec<[f64; 3]> = (1..=storeys).map(centre).collect();
     let imported = building(&text, &floors);
