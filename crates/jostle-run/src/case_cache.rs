@@ -1,6 +1,7 @@
 //! What cases that follow each other share.
 
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 use jostle::{Gap, GroundMotion, Model, Plan, System};
 use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling};
@@ -8,12 +9,29 @@ use jostle_io::{Input, InputError, MotionSource, MotionSpec, PathError, Scaling}
 use crate::prepared::Prepared;
 use crate::shapes::SharedShapes;
 
+/// A record that was read.
+#[derive(Debug)]
+struct KnownRecord {
+    source: MotionSource,
+    written: Option<(SystemTime, u64)>,
+    motion: Arc<GroundMotion>,
+}
+
+/// When the file of a record was last written, and its length: a changed one is read anew. `None` of built-in records.
+fn last_written(source: &MotionSource) -> Option<(SystemTime, u64)> {
+    let MotionSource::Record { name, files, .. } = source else {
+        return None;
+    };
+    let found = std::fs::metadata(files.folder().join(name)).ok()?;
+    Some((found.modified().ok()?, found.len()))
+}
+
 /// Data shared by successive cases: assembled systems and records.
 #[derive(Default)]
 pub struct CaseCache {
     /// The last systems, the most recent at the end.
     systems: Mutex<Vec<Assembled>>,
-    records: Mutex<Vec<(MotionSource, Arc<GroundMotion>)>>,
+    records: Mutex<Vec<KnownRecord>>,
 }
 
 /// A model, its system, and the shapes for modal stepping.
@@ -98,10 +116,12 @@ impl CaseCache {
         if !matches!(spec.source, MotionSource::Record { .. }) {
             return input.ground_motion();
         }
+        let written = last_written(&spec.source);
         let known = {
             let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
-            let found = records.iter().find(|(source, _)| *source == spec.source);
-            found.map(|(_, motion)| Arc::clone(motion))
+            let mut known = records.iter();
+            let found = known.find(|known| known.source == spec.source && known.written == written);
+            found.map(|known| Arc::clone(&known.motion))
         };
         let unscaled = match known {
             Some(motion) => motion,
@@ -123,7 +143,11 @@ impl CaseCache {
                 if records.len() >= RECORDS {
                     records.remove(0);
                 }
-                records.push((spec.source.clone(), Arc::clone(&motion)));
+                records.push(KnownRecord {
+                    source: spec.source.clone(),
+                    written,
+                    motion: Arc::clone(&motion),
+                });
                 motion
             }
         };

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use jostle::separation::{Code, CodeInputs, MotionLevel, Requirement};
-use jostle::{GroundMotion, Model, Pounding};
+use jostle::{Gap, GroundMotion, Model, Pounding};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -240,6 +240,10 @@ const LEAST_BEYOND: f64 = 1e-9;
 
 /// A gap that no displacement closes \[m\].
 const NEVER: f64 = 1e6;
+/// Rounds in which widths and closings settle: each changes the other by some percent of its change.
+const MOST_ROUNDS: usize = 20;
+/// Least width between foundations that act on each other \[m\].
+const LEAST_WIDTH: f64 = 1e-4;
 /// Runs before a search gives up.
 const MOST_RUNS: usize = 200;
 
@@ -304,11 +308,15 @@ fn search_with(
     if model.gaps.is_empty() {
         return Err(GapError::NoGap);
     }
-    let widths = vec![NEVER; model.gaps.len()];
     let apart = |motion| -> Result<_, GapError> {
         let runs = GapRuns::new(model, motion, stop)?;
+        let widths = if model.moves_by_gaps() {
+            widths_in_use(model, &runs, settings.tolerance, work)?
+        } else {
+            vec![NEVER; model.gaps.len()]
+        };
         let apart = work.run(&runs, &widths, Pounding::Excluded)?;
-        Ok((runs, apart))
+        Ok((runs, apart, widths))
     };
     let other = motion.reversed();
     work.expect(1 + usize::from(settings.reversed));
@@ -316,18 +324,20 @@ fn search_with(
         || apart(motion),
         || settings.reversed.then(|| apart(&other)).transpose(),
     );
-    let ((runs, apart), reversed) = (forward?, reversed?);
+    let ((runs, apart, others), reversed) = (forward?, reversed?);
     let search = Search {
         model,
         motion,
         work,
         runs: &runs,
         apart: &apart,
+        others: &others,
     };
-    let reversed = reversed.as_ref().map(|(runs, apart)| Search {
+    let reversed = reversed.as_ref().map(|(runs, apart, others)| Search {
         motion: &other,
         runs,
         apart,
+        others,
         ..search
     });
     let mut gaps = Vec::new();
@@ -351,6 +361,33 @@ fn search_with(
         gaps,
         stopped: false,
     })
+}
+
+/// Widths that buildings just do not close, where foundations act on each other across the gaps: the closing without contact depends on
+/// the width, a little.
+fn widths_in_use(
+    model: &Model,
+    runs: &GapRuns<'_>,
+    tolerance: f64,
+    work: &Work<'_>,
+) -> Result<Vec<f64>, GapError> {
+    let mut widths: Vec<f64> = model.gaps.iter().map(Gap::width).collect();
+    for _ in 0..MOST_ROUNDS {
+        work.expect(1);
+        let tried = work.run(runs, &widths, Pounding::Excluded)?;
+        let mut change = 0.0_f64;
+        for (gap, width) in widths.iter_mut().enumerate() {
+            if let Some((_, closing)) = nearest_of(&tried, gap) {
+                let found = closing.max(LEAST_WIDTH);
+                change = change.max((found - *width).abs());
+                *width = found;
+            }
+        }
+        if change < 0.1 * tolerance {
+            break;
+        }
+    }
+    Ok(widths)
 }
 
 /// As [`search_gaps`], where only all of it is of use.
@@ -456,6 +493,8 @@ struct Search<'a> {
     runs: &'a GapRuns<'a>,
     /// The run without contact.
     apart: &'a Tried,
+    /// Widths of gaps other than that which is searched \[m\].
+    others: &'a [f64],
 }
 
 /// One gap, while all others are out of reach.
@@ -499,9 +538,9 @@ impl<'a> OneGap<'a> {
         known.find(|known| known.width_m == width).copied()
     }
 
-    /// Runs the model with a width, and with all other gaps out of reach.
+    /// Runs the model with a width, and with all other gaps out of reach, or as wide as needed where foundations act across them.
     fn run(&self, width: f64) -> Result<GapPoint, GapError> {
-        let mut widths = vec![NEVER; self.search.model.gaps.len()];
+        let mut widths = self.search.others.to_vec();
         widths[self.gap] = width;
         let work = self.search.work;
         let tried = work.run(self.search.runs, &widths, Pounding::Included)?;
@@ -989,7 +1028,20 @@ mod tests {
             ..GapSettings::default()
         };
         let found = critical_gaps(&input.model, &motion, &settings, &|| false);
-        let curve = &found.unwrap_or_else(|error| panic!("{error}"))[0].curve;
+        let found = &found.unwrap_or_else(|error| panic!("{error}"))[0];
+        // With this gap, and foundations so far apart, the buildings close it but for the tolerance.
+        let mut model = input.model.clone();
+        model.gaps[0].set_width(found.gap_m);
+        let runs =
+            GapRuns::new(&model, &motion, &|| false).unwrap_or_else(|error| panic!("{error}"));
+        let apart = runs.run(&[found.gap_m], Pounding::Excluded, &mut |_| {});
+        let apart = apart.unwrap_or_else(|error| panic!("{error}"));
+        let (_, closing) = nearest_of(&apart, 0).expect("contacts");
+        assert!(
+            (found.gap_m - closing).abs() <= settings.tolerance,
+            "{found:?}"
+        );
+        let curve = &found.curve;
         let [first, second, third] = [0, 1, 2].map(|at| curve[at].width_m);
         assert!(first > 0.0 && second == 2.0 * first && (third / first - 3.0).abs() < 1e-12);
     }

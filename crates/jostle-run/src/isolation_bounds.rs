@@ -2,11 +2,10 @@
 
 use jostle::results::isolation_bounds::{Bounded, BoundedBuilding, BoundedGap, IsolationBounds};
 use jostle::results::summary::{BuildingSummary, GapSummary};
-use jostle::{Model, RunEnd, Summary, System};
+use jostle::{Model, Summary, System};
 
 use crate::observer::{Observer, Stage};
 use crate::prepared::Prepared;
-use crate::run::Ran;
 
 /// The bounds, as messages call them.
 const BOUNDS: [&str; 2] = ["at the lower bounds", "at the upper bounds"];
@@ -22,15 +21,6 @@ impl Prepared {
         observer: &mut Observer<'_>,
     ) -> Option<Result<RunsAtBounds, String>> {
         has_bounds(&self.input.model).then(|| at_bounds(self, apart, observer))
-    }
-}
-
-impl Ran {
-    /// Runs the model at both bounds of its bearings, if it states any and the run came to its end. `apart`: without contact as well.
-    pub fn run_isolation_bounds(&mut self, apart: bool, observer: &mut Observer<'_>) {
-        if self.outcome.end == RunEnd::Completed {
-            self.isolation_bounds = self.prepared.run_at_bounds(apart, observer);
-        }
     }
 }
 

@@ -96,6 +96,13 @@ impl Ran {
         }
     }
 
+    /// Runs the model at both bounds of its bearings, if it states any and the run came to its end. `apart`: without contact as well.
+    pub fn run_isolation_bounds(&mut self, apart: bool, observer: &mut Observer<'_>) {
+        if self.outcome.end == RunEnd::Completed {
+            self.isolation_bounds = self.prepared.run_at_bounds(apart, observer);
+        }
+    }
+
     /// The numbers of the run.
     #[must_use]
     pub fn summary(&self) -> Summary {

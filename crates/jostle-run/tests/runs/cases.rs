@@ -121,3 +121,24 @@ fn every_number_changes_what_it_changes_without_other_cases() {
     }
     assert!(compared > 80, "{compared} numbers");
 }
+
+/// A page that stays open runs the record that is there now.
+#[test]
+fn a_record_that_was_written_again_is_read_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "motion = { record = \"r.csv\" }\n[[building]]\nname = \"A\"\nkind = \"shear\"\nmass = \"40 t\"\nstiffness = \"60 MN/m\"\nstoreys = 2\n";
+    let cache = CaseCache::default();
+    let peak_of = |values: &[f64]| {
+        let lines: Vec<String> = values.iter().map(f64::to_string).collect();
+        let record = format!("# unit = m/s2\n# step = 0.01\n{}\n", lines.join("\n"));
+        std::fs::write(folder.path().join("r.csv"), record).expect("written");
+        let tree = ModelTree::parse("m", text, Format::Toml, folder.path());
+        let input = tree.expect("a model").input().expect("sound");
+        cache.assemble(input).map(|case| case.motion.peak()).ok()
+    };
+    let wave = [0.0, 1.0, -0.5, 0.2, 0.1, -0.1, 0.0];
+    assert_eq!(peak_of(&wave), Some(1.0));
+    // Longer, so that clocks that count in seconds do not matter.
+    let higher: Vec<f64> = wave.iter().map(|value| 2.25 * value).collect();
+    assert_eq!(peak_of(&higher), Some(2.25));
+}
