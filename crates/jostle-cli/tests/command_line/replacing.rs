@@ -283,7 +283,8 @@ const SELECT: [&str; 16] = [
 #[test]
 fn a_run_leaves_no_file_of_an_earlier_run_of_another_model() {
     let folder = with_model();
-    let hinged = SMALL.to_owned() + "hinges = { rule = \"bilinear\", yield = \"20 kN\" }\n";
+    let hinged = SMALL.to_owned()
+        + "hinges = { rule = \"bilinear\", yield = \"2 mm\", post_yield = 0.05 }\n";
     std::fs::write(folder.path().join("hinged.toml"), hinged).expect("written");
     let results = folder.path().join("results");
     let run = |arguments: &[&str]| {
