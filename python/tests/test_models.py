@@ -541,11 +541,14 @@ def test_tall_frames_bounds_of_bearings_and_filtered_accelerations() -> None:
         "b", mass=[4e4], stiffness=[9e7], storey_height=3, isolation={**bearings, "bounds": {"lower": 0.8, "upper": 1.25}}
     )
     beside = Shear("c", mass=[4e4], stiffness=[9e7], storey_height=3)
-    pair = Model([isolated, beside], gap="100 mm", motion=jostle.Motion.el_centro().lasting("6 s"))
+    pair = Model([isolated, beside], Gap("100 mm"), motion=jostle.Motion.el_centro().lasting("6 s"))
     summary = jostle.run(pair, without_contact=True).summary
     needed = summary["isolation_bounds"]["gaps"][0]["closing_without_contact_m"]
     assert needed["nominal"] == summary["gaps"][0]["closing_without_contact_m"]
     assert needed["envelope"] == max(needed["nominal"], needed["lower"], needed["upper"]) > needed["nominal"]
+    (critical,) = jostle.critical_gap(pair, outcomes=False)
+    assert critical.gap_at_bounds is not None
+    assert critical.gap_at_bounds[0] >= needed["lower"] - 1e-4
 
     # Nothing strikes: the filter below 25 Hz leaves the peak.
     for building in found.summary["buildings"]:
