@@ -259,9 +259,10 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
         }
         let has_outcomes = gap.rules.iter().any(|rule| rule.worse_outcome().is_some());
         text += "  rule                       gap     ÷ needed";
-        text += match has_outcomes {
-            true => "   outcome with this gap, worse of both signs\n",
-            false => "\n",
+        text += match (has_outcomes, gap.gap_at_bounds_m.is_some()) {
+            (true, false) => "   outcome with this gap, worse of both signs\n",
+            (true, true) => "   outcome with this gap and nominal bearings, worse of both signs\n",
+            (false, _) => "\n",
         };
         for (name, rule) in rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m)) {
             let ratio = rule

@@ -301,6 +301,10 @@ fn headline(set: &GapSet<'_>) -> String {
     let gap = set.governing;
     let signs = gap.reversed_gap_m;
     let signs = signs.map_or("", |_| message::either_sign_of_the_motion());
+    let signs = match gap.gap_at_bounds_m {
+        Some(_) => format!("{signs}{}", message::over_bounds_of_bearings()),
+        None => signs.to_owned(),
+    };
     let needed = LENGTH.rounded_up(gap.needed_m());
     let narrow = match lacks(set) > 0.0 {
         true => message::gap_is_too_narrow(&pair, required_width(lacks(set))),
@@ -475,6 +479,9 @@ fn rules_of(gap: &CriticalGap) -> Option<Section> {
     (!gap.rules.is_empty()).then(|| Section {
         title: message::rules_under(gap.between.join(" ↔ "), &gap.motion),
         remark: match has_outcomes {
+            true if gap.gap_at_bounds_m.is_some() => {
+                needed + message::outcomes_of_rules() + message::outcomes_of_nominal_bearings()
+            }
             true => needed + message::outcomes_of_rules(),
             false => needed,
         },

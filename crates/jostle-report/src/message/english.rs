@@ -1007,6 +1007,7 @@ messages! {
     the_motion_reversed = " with the motion reversed";
     motion_reversed(motion) = "{motion}, reversed";
     either_sign_of_the_motion = ", either sign of the motion";
+    over_bounds_of_bearings = ", over the bounds of the bearings";
     under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion}, peak {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
     under_any_record(records, pair, gap, sign, motion, strongest) = "Under {records} records: no impact between {pair} for gaps of {gap} {mm} or more{sign} (governing: {motion}).{strongest}";
     under_motion(motion) = " under {motion}";
@@ -1034,6 +1035,7 @@ messages! {
     rules_under(pair, motion) = "{pair}: rules under {motion}";
     gap_needed_mm(gap) = "Gap needed: {gap} {mm}.";
     outcomes_of_rules = " For narrower gaps, the table gives the number of impacts and the greatest force, for the worse of the two signs of the motion.";
+    outcomes_of_nominal_bearings = " Impacts and forces are those with nominal bearings.";
 
     // jostle-live/page
     runs_on_this_machine = "runs on this machine. This page uses no network.";
