@@ -125,7 +125,9 @@ pub(crate) fn size(args: &SizeArgs) -> Result<(), Failure> {
         terminal::print(&format!("{:#}", results.json()))?;
     } else {
         if results.earlier > 0 {
-            terminal::remark(&format!("{} trials were finished already", results.earlier));
+            let be = if results.earlier == 1 { "was" } else { "were" };
+            let trials = jostle_run::counted(results.earlier, "trial");
+            terminal::remark(&format!("{trials} {be} finished already"));
         }
         let page = out.as_deref().map(|out| out.join("size.html"));
         terminal::print(&results.describe(page.as_deref()))?;

@@ -82,7 +82,9 @@ pub(crate) fn run(
         terminal::print(&results.json())?;
     } else {
         if done.kept > 0 {
-            terminal::remark(&format!("{} records were finished already", done.kept));
+            let be = if done.kept == 1 { "was" } else { "were" };
+            let records = jostle_run::counted(done.kept, "record");
+            terminal::remark(&format!("{records} {be} finished already"));
         }
         let page = out.as_deref().map(|out| out.join("suite.html"));
         terminal::print(&results.describe(page.as_deref()))?;
