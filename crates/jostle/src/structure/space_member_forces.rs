@@ -313,7 +313,7 @@ fn of_jointed_wall(
     if let (None, Some(node)) = (rises[0], node(0))
         && let Some(rise) = base.rise_with_base((node, THETA))
     {
-        for &(dof, share) in building.equations.row(rise).entries() {
+        for &(dof, share) in building.equations.row(&base.carried_row(rise)).entries() {
             elongation.displacement.add(dof, -share);
         }
     }
@@ -342,7 +342,8 @@ impl JointedCuts<'_> {
     fn forces(&self, element: usize) -> Vec<LinearForm> {
         let sticks = &self.building.discretization.stick_model;
         let element = &sticks.space_elements[element];
-        let deformations = element.deformations();
+        let deformations = element.deformations().iter();
+        let deformations: Vec<Row> = deformations.map(|row| sticks.carried_row(row)).collect();
         let force = |index: usize| {
             let mut form = LinearForm::default();
             for (at, deformation) in deformations.iter().enumerate() {

@@ -441,7 +441,7 @@ fn check_joints(members: &[(SpacePlace, [[f64; 6]; 2])], what: &str) -> usize {
 }
 
 /// Columns carry what pushes the floors: shears and torques storey by storey, and overturning moments by axial forces and moments,
-/// on bases that sway and twist as on the ground.
+/// whatever their base does.
 #[test]
 fn columns_of_a_storey_carry_what_is_above() {
     let sways = Base {
@@ -453,11 +453,15 @@ fn columns_of_a_storey_carry_what_is_above() {
         torsional_stiffness: Some(4e8),
         ..Base::default()
     };
+    let rocks = Base {
+        rotational_stiffness: Some(5e9),
+        ..sways
+    };
     let both = Base {
         torsional_stiffness: Some(4e8),
         ..sways
     };
-    let bases = [Base::default(), sways, turns, both];
+    let bases = [Base::default(), sways, turns, both, rocks];
     for (axial, footing) in [true, false]
         .into_iter()
         .flat_map(|axial| bases.iter().map(move |base| (axial, base)))
