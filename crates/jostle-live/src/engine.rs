@@ -310,9 +310,17 @@ impl Engine {
         }
         let wall = clock.seconds();
         let completed = outcome.end == RunEnd::Completed;
-        let mut watched = |_, progress| watch(progress);
+        let mut halted = false;
+        let mut watched = |_, progress| {
+            let flow = watch(progress);
+            halted |= flow.is_break();
+            flow
+        };
         let bounds = completed.then(|| prepared.run_at_bounds(compares, &mut watched));
         let bounds = bounds.flatten();
+        if halted {
+            return Err(Trouble::Stopped);
+        }
         let summary = numbers_of(
             &prepared,
             &outcome,

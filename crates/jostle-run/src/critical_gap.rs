@@ -1029,7 +1029,7 @@ mod tests {
         };
         let found = critical_gaps(&input.model, &motion, &settings, &|| false);
         let found = &found.unwrap_or_else(|error| panic!("{error}"))[0];
-        // With this gap, and foundations so far apart, the buildings close it but for the tolerance.
+        // With this gap, and foundations so far apart, the buildings close it within the tolerance.
         let mut model = input.model.clone();
         model.gaps[0].set_width(found.gap_m);
         let runs =

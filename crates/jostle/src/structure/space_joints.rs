@@ -85,13 +85,15 @@ pub(super) struct AddedJoints {
 }
 
 /// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already. `carried`: masses
-/// of the floors that its columns carry in equal shares, and their loads; none unless it stands under its weight \[kg, N\].
+/// of the floors that its columns carry in equal shares, and their loads; none unless it stands under its weight or rocks \[kg, N\].
+/// `bears_weight`: whether it stands under it.
 pub(super) fn add_space_joints(
     assembly: Assembly<'_>,
     sticks: &mut StickModel,
     ground: usize,
     moving: &[usize],
     carried: &[[f64; 2]],
+    bears_weight: bool,
 ) -> AddedJoints {
     let (frame, storey_heights) = (assembly.frame, assembly.heights);
     let floors = &moving[moving.len() - storey_heights.len()..];
@@ -129,7 +131,7 @@ pub(super) fn add_space_joints(
         };
         let keeps_length =
             matches!(member.place, SpacePlace::Column { .. }) && member.parts[0].axial.is_none();
-        if let Some([mass, load]) = carried.get(storey).filter(|_| keeps_length) {
+        if let Some([mass, load]) = carried.get(storey).filter(|_| keeps_length && bears_weight) {
             let count = columns_of(frame, storey).count();
             member.weight = (mass * STANDARD_GRAVITY + load) / count as f64;
         }

@@ -108,7 +108,15 @@ pub(super) fn discretize_tiers(
         let floors = tiers.floors.iter().enumerate();
         let weights = floors.map(|(floor, tier)| [tier.mass, tiers.floor_load(floor)]);
         let carried: Vec<[f64; 2]> = weights.filter(|_| carries).collect();
-        add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried)
+        let bears_weight = gravity.preload;
+        add_space_joints(
+            assembly,
+            &mut stick_model,
+            ground,
+            &nodes,
+            &carried,
+            bears_weight,
+        )
     });
     let (jointed, joints) = match jointed {
         Some(mut add_space_joints) => (
