@@ -190,8 +190,8 @@ fn geometries_within_geometries_without_end_are_refused() {
     assert_eq!(inventory.mends.len(), 2);
 }
 
-/// A ring of 40 m around a court of 30 m, one building inside it beside the western wall, and one outside beside the eastern wall; a court
-/// that crosses the edge of its building is taken away from it.
+/// A ring of 40 m has a court of 30 m. One building stands in the court beside the western wall, one outside beside the eastern wall. A
+/// court that crosses the edge of its building is subtracted.
 #[test]
 fn courts_are_no_area_and_their_walls_face_what_stands_inside() {
     let text = "id,storeys,wkt\n\
